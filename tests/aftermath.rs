@@ -94,14 +94,14 @@ fn the_handle_hears_of_the_hit_after_half_a_millisecond() {
 /// a force F at a of a uniform free bar is known in closed form, and `ε = r M/EI`.
 #[test]
 fn a_slow_push_strains_as_statics_says() {
-    use sweetspot::collision::contact::table::Piece;
+    use sweetspot::collision::contact::table::ForcePiece;
     let bat = bundled_bat("meshes/dowel.json").unwrap();
     let request = Request { modes: 60, tolerance: 1e-6, ..Request::plain() };
     let solution = solve(&bat, &request).unwrap();
     // Half a second up to 100 N: modes of 240 Hz and more follow.
     let force = 100.0;
     let piece =
-        Piece { start: 0.0, length: 0.5, powers: [0.0, 0.0, 3.0 * force, -2.0 * force, 0.0] };
+        ForcePiece { start: 0.0, length: 0.5, powers: [0.0, 0.0, 3.0 * force, -2.0 * force, 0.0] };
     let a = 0.6;
     let after = Aftermath::new(&bat, &solution, a, vec![piece]);
     let now = &after.at(&[0.499_999_999])[0];
@@ -125,7 +125,7 @@ fn a_slow_push_strains_as_statics_says() {
 /// A maximum found in a short time is also found in a longer one.
 #[test]
 fn a_longer_look_finds_no_less() {
-    use sweetspot_report::report::aftermath::AfterHit;
+    use sweetspot_report::schema::ring::AfterHit;
     let (bat, solution) = r161();
     let scene = Scene::default();
     let hitter = Hitter::new(Model::Contact, &scene, &bat, &solution, Effort::default()).unwrap();
@@ -135,7 +135,7 @@ fn a_longer_look_finds_no_less() {
         let report = AfterHit::new(&bat, &after, &[0.13], until);
         let peak = report.watched[0].peak;
         let motion = [peak.displacement_m, peak.velocity_m_s, peak.acceleration_m_s2];
-        let now = [motion[0], motion[1], motion[2], report.after.unwrap().strain];
+        let now = [motion[0], motion[1], motion[2], report.strain_max.unwrap().strain];
         assert!(now.iter().zip(before).all(|(now, before)| *now >= before), "{until} {now:?}");
         before = now;
     }

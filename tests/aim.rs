@@ -17,7 +17,7 @@ use sweetspot_study::aim::bench::Terms;
 use sweetspot_study::aim::wish::{Amount, Ask, DiameterLimit, FreeChoice, Goal, Target, Wish};
 use sweetspot_study::answers::Answer;
 use sweetspot_study::lathe::workpiece::HitTerms;
-use sweetspot_study::many::rows::{Asked, Trial};
+use sweetspot_study::many::rows::{BatTrial, Questions};
 
 const OZ_IN2: f64 = 0.028_349_523_125 * 0.0254 * 0.0254;
 const INCH: f64 = 0.0254;
@@ -80,10 +80,10 @@ fn task_e() -> Wish {
 fn written(outcome: &Outcome, answers: &[Answer]) -> (Bat, Vec<f64>) {
     let text = aimed::bat_text(outcome);
     let bat = Bat::from_text("new.json", &text, Path::new("")).unwrap();
-    let asked = Asked { answers: answers.to_vec(), tolerance: 1e-5 };
+    let asked = Questions { answers: answers.to_vec(), tolerance: 1e-5 };
     let scene = terms().hit.scene;
-    let trial = |_: usize, _: &Bat| Ok(Trial { scene: scene.clone(), model: Model::Contact });
-    let found = Asked::of_each(&bat, vec![(&asked, Ok(bat.clone()))], trial).pop();
+    let trial = |_: usize, _: &Bat| Ok(BatTrial { scene: scene.clone(), model: Model::Contact });
+    let found = Questions::of_each(&bat, vec![(&asked, Ok(bat.clone()))], trial).pop();
     let found = found.unwrap().unwrap();
     (bat, found.figures.into_iter().map(|figure| figure.unwrap().value).collect())
 }

@@ -265,6 +265,24 @@ fn finite_cuts_are_solved() {
     }
 }
 
+/// A map whose theory is left to the program has cuts of that theory: halving a cut halves its change, however small.
+#[test]
+fn a_theory_that_is_chosen_holds_for_cut_bats() {
+    let bat = mesh("r161");
+    let request = Request { theory: Theory::Auto, tolerance: 1e-4, ..timoshenko(1e-4) };
+    let answers = [Answer::Frequency(1), Answer::ExitSpeed];
+    let piece = Workpiece::new(&bat, &borders(&[0.762]), &request, Some(&scene()), &answers);
+    let piece = piece.unwrap();
+    let change = |depth: f64, k: usize| {
+        let cut = DiameterChange::band([0.762, 0.762 + INCH], -depth);
+        piece.cut(&cut, &[0.0]).unwrap()[0][k].unwrap() - piece.compared()[k].unwrap().value
+    };
+    for k in 0..answers.len() {
+        let ratio = change(1e-4, k) / change(5e-5, k);
+        assert!((ratio - 2.0).abs() < 0.01, "{k}: {ratio}");
+    }
+}
+
 const MESHES: [&str; 10] = [
     "cone",
     "corked",

@@ -33,7 +33,7 @@ use sweetspot_report::plot::{
     exit_speed, front, hoop, lathe, ledger, matrix, profile, response, ringing, shapes,
     wall_sweep as thickness,
 };
-use sweetspot_report::report::aftermath::AfterHit;
+use sweetspot_report::schema::ring::{AfterHit, Motion};
 use sweetspot_study::answers::Answer;
 use sweetspot_study::lathe::map::{LatheMap, LatheTerms, bands};
 use sweetspot_study::lathe::workpiece::HitTerms;
@@ -643,8 +643,17 @@ fn responses_and_motions_are_whole_in_every_form() {
             Hitter::new(Model::Contact, &scene, &bat, &solution, Effort::default()).unwrap();
         let after = Aftermath::new(&bat, &solution, 0.6, hitter.force(0.6).unwrap());
         let report = AfterHit::new(&bat, &after, &[0.1, 0.2, 0.5], 0.02);
-        let frames: Vec<Vec<f64>> = (0..9).map(|k| vec![0.0, 1e-4 * f64::from(k), -2e-4]).collect();
-        let times: Vec<f64> = (0..9).map(|k| 1e-3 * f64::from(k)).collect();
+        let motion = Motion {
+            edits: vec![],
+            modes: 1,
+            theory: "timoshenko",
+            rigid_motion: true,
+            at_m: None,
+            impulse_n_s: None,
+            x_m: vec![0.0, 0.4, 0.8],
+            times_s: (0..9).map(|k| 1e-3 * f64::from(k)).collect(),
+            deflection_m: (0..9).map(|k| vec![0.0, 1e-4 * f64::from(k), -2e-4]).collect(),
+        };
         for (us, paper) in sheets {
             let sheet = Sheet { us, paper };
             let name = bat.name();
@@ -656,22 +665,11 @@ fn responses_and_motions_are_whole_in_every_form() {
                     response::ResponseCurves { bat: name, kind, at, to, values, peaks, measured };
                 all.push(response::picture(sheet, &subject, "response").unwrap());
             }
-            let hit = ringing::AfterHit {
-                bat: name,
-                length: bat.length(),
-                after: &after,
-                watched: report.watched.iter().map(|seen| (seen.x_m, &seen.spectrum[..])).collect(),
-                until: report.until,
-                envelope: &report.envelope,
-                damped: report.damped,
-            };
-            let drawn = hit.pictures(sheet);
+            let drawn = ringing::after_hit(sheet, &after, &report);
             let names: Vec<&str> = drawn.iter().map(|picture| picture.name.as_str()).collect();
             assert_eq!(names, ["motion", "spectrum", "strain"]);
             all.extend(drawn);
-            let x = [0.0, 0.4, 0.8];
-            let (x, times, frames) = (&x[..], &times[..], &frames[..]);
-            all.extend(ringing::moving(sheet, &ringing::Moving { bat: name, x, times, frames }));
+            all.extend(ringing::moving(sheet, name, &motion));
             for picture in all {
                 check(&picture, name);
                 assert_eq!(picture.drawing.width, sheet.width());

@@ -239,3 +239,18 @@ fn a_ball_beyond_the_end_misses() {
     assert!((31..=33).contains(&rows), "{reason}");
     assert!(reason["reason"].as_str().unwrap().contains("beyond the bat's end"), "{reason}");
 }
+
+/// A bat clamped at the knob has no node of mode 1; its other outputs scatter all the same.
+#[test]
+fn an_output_that_no_bat_has_leaves_the_others() {
+    let folder = Folder::new("clamped");
+    let bat = r#"{ "format": "sweetspot-bat/1", "material": "white-ash-dynamic",
+        "profile": { "unit": "in", "x": [0, 33], "diameter": [1, 2.5], "interpolation": "linear" },
+        "supports": [{ "x": 0, "type": "clamped" }] }"#;
+    folder.write("clamped.json", bat);
+    let found = folder.json(&["scatter", "clamped.json", "--points", "64", "--json", "-"]);
+    assert_eq!(found["answered"], 64, "{found}");
+    assert!(output(&found, "f1_hz")["sd"].as_f64().unwrap() > 0.0);
+    let node = output(&found, "node_mode_1_m");
+    assert!(node["mean"].is_null() && node["percentiles"].as_array().unwrap().is_empty(), "{node}");
+}

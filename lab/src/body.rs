@@ -5,7 +5,7 @@ use sweetspot::base::error::Result;
 use sweetspot::bat::body::{Bat, STANDARD_PIVOT};
 use sweetspot::bat::stations::Interpolation;
 use sweetspot::modes::hoop::rings;
-use sweetspot_report::report::answer_unit::AnswerUnit;
+use sweetspot_report::parts::Quantity;
 use sweetspot_study::answers::Answer;
 
 use crate::asked::Question;
@@ -18,7 +18,7 @@ const PLACES: [usize; 2] = [2, 240];
 pub fn answer(of: &Question) -> Result<Value> {
     let Question { bat, units, .. } = of;
     let inertia = bat.inertia();
-    let length = |value: f64| shown(value, AnswerUnit::Length.shown(*units, value));
+    let length = |value: f64| shown(value, Quantity::Length.said(*units, value));
     Ok(json!({
         "name": bat.name(),
         "inches": bat.inches(),

@@ -17,6 +17,7 @@ use sweetspot::modes::hoop::rings;
 use sweetspot::modes::prepared::prepare;
 use sweetspot::modes::solve::{Request, Solution, solve};
 use sweetspot_report::analysis::POINTS;
+use sweetspot_report::parts::Quantity;
 use sweetspot_report::report::{hit_text, trust};
 use sweetspot_study::answers::Answer;
 use sweetspot_study::verdict::Verdict;
@@ -78,7 +79,8 @@ fn best(
 ) -> Value {
     let Solved { bat, .. } = solved;
     let place = |x: f64| shown::place(bat, of.units, x);
-    let vibration = vibration.map(|energy| shown::shown(energy, of.units.energy(energy, 2)));
+    let vibration =
+        vibration.map(|energy| shown::shown(energy, Quantity::Energy.said(of.units, energy)));
     json!({
         "best": {
             "place": place(peak.x),

@@ -28,7 +28,7 @@ pub fn answer(of: &Question) -> Result<Value> {
         let found = format!("a profile of {} pieces", bat.profile().pieces.len());
         Error::value("the lathe map", found, "a profile of fewer, such as stations an inch apart")
     })?;
-    let table = TableUnits::of(of.units, bat.inches());
+    let table = TableUnits::of(of.units, &bat);
     let change = |band: &TurnedBand, answer: Answer| {
         // Derivatives are per millimetre.
         let change = 1e3 * table.per() * band.derivative(answer, 0.0)?;

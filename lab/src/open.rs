@@ -13,8 +13,8 @@ use sweetspot::files::bat_file::profile_of_table;
 use sweetspot::files::schema::resolved::ResolvedBat;
 use sweetspot::modes::prepared::prepare;
 use sweetspot::modes::solve::{Request, solve};
+use sweetspot_report::parts::Quantity;
 use sweetspot_report::parts::units::Units;
-use sweetspot_report::report::answer_unit::AnswerUnit;
 use sweetspot_report::report::edits::words;
 use sweetspot_report::report::resolved::{resolved, text_in_columns};
 
@@ -112,7 +112,7 @@ fn parts(bat: &Bat, units: Units) -> Vec<String> {
 /// The fixtures and supports of the bat before its edits.
 pub fn fixtures(bat: &Bat, units: Units) -> Vec<String> {
     let fixtures = bat.unedited().fixtures();
-    let place = |x: f64| AnswerUnit::Length.shown(units, x);
+    let place = |x: f64| Quantity::Length.said(units, x);
     let stretch =
         |what: &str, from: f64, to: f64| format!("{what}, {} to {}", place(from), place(to));
     let mut parts = vec![];

@@ -4,9 +4,9 @@ use serde_json::{Value, json};
 use sweetspot::base::units::{inches, ounces};
 use sweetspot::bat::body::Bat;
 use sweetspot::modes::mode::Mode;
+use sweetspot_report::parts::Quantity;
 use sweetspot_report::parts::note::note;
 use sweetspot_report::parts::units::Units;
-use sweetspot_report::report::answer_unit::AnswerUnit;
 use sweetspot_study::answers::Answer;
 
 /// A number with its text.
@@ -16,12 +16,12 @@ pub fn shown(value: f64, text: String) -> Value {
 
 /// An answer as `sweetspot analyze` shows it.
 pub fn answer(answer: Answer, units: Units, value: f64) -> Value {
-    shown(value, AnswerUnit::of(answer).shown(units, value))
+    shown(value, Quantity::of(answer).said(units, value))
 }
 
 /// A place on the bat, from the knob and from the tip.
 pub fn place(bat: &Bat, units: Units, x: f64) -> Value {
-    let text = |x| AnswerUnit::Length.shown(units, x);
+    let text = |x| Quantity::Length.said(units, x);
     json!({ "x_m": x, "text": text(x), "from_tip": text(bat.length() - x) })
 }
 

@@ -4,7 +4,6 @@
 //! turns into vector instructions. pulp chooses the widest vectors that the machine has. The choice does not change the
 //! bits of an answer.
 
-use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use pulp::{Arch, WithSimd};
@@ -63,18 +62,83 @@ pub(crate) use vectorized;
 #[repr(align(64))]
 pub struct Lanes([f64; WIDTH]);
 
-/// The value of the expression in every lane. A plain loop: closures are compiled again for every use and are not
-/// always inlined.
-macro_rules! lanes {
-    ($k:ident => $value:expr) => {{
-        let mut lanes = [0.0; WIDTH];
+/// The value of the expression in every one of several lanes. A plain loop: closures are compiled again for every use
+/// and are not always inlined.
+macro_rules! in_every_lane {
+    ($width:ident, $k:ident => $value:expr) => {{
+        let mut lanes = [0.0; $width];
         let mut $k = 0;
-        while $k < WIDTH {
+        while $k < $width {
             lanes[$k] = $value;
             $k += 1;
         }
-        Lanes(lanes)
+        lanes
     }};
+}
+pub(crate) use in_every_lane;
+
+/// The arithmetic of a type that holds several lanes: of two numbers in every lane, and of one with the same number in
+/// every lane.
+macro_rules! arithmetic {
+    ([$($generic:tt)*] $lanes:ty, $make:path, $width:ident) => {
+        $crate::base::lanes::arithmetic! {
+            [$($generic)*] $lanes, $make, $width: Add add +, Sub sub -, Mul mul *, Div div /
+        }
+
+        impl<$($generic)*> ::std::ops::Neg for $lanes {
+            type Output = Self;
+
+            #[inline(always)]
+            fn neg(self) -> Self {
+                $make($crate::base::lanes::in_every_lane!($width, k => -self.0[k]))
+            }
+        }
+
+        impl<$($generic)*> ::std::ops::AddAssign for $lanes {
+            #[inline(always)]
+            fn add_assign(&mut self, other: Self) {
+                *self = *self + other;
+            }
+        }
+
+        impl<$($generic)*> ::std::ops::SubAssign for $lanes {
+            #[inline(always)]
+            fn sub_assign(&mut self, other: Self) {
+                *self = *self - other;
+            }
+        }
+    };
+    ($generic:tt $lanes:ty, $make:path, $width:ident: $($name:ident $function:ident $sign:tt),*) => {
+        $($crate::base::lanes::arithmetic! { $generic $lanes, $make, $width, $name $function $sign })*
+    };
+    ([$($generic:tt)*] $lanes:ty, $make:path, $width:ident, $name:ident $function:ident $sign:tt) => {
+        impl<$($generic)*> ::std::ops::$name for $lanes {
+            type Output = Self;
+
+            #[inline(always)]
+            fn $function(self, other: Self) -> Self {
+                $make($crate::base::lanes::in_every_lane!($width, k => self.0[k] $sign other.0[k]))
+            }
+        }
+
+        impl<$($generic)*> ::std::ops::$name<f64> for $lanes {
+            type Output = Self;
+
+            #[inline(always)]
+            fn $function(self, other: f64) -> Self {
+                $make($crate::base::lanes::in_every_lane!($width, k => self.0[k] $sign other))
+            }
+        }
+    };
+}
+pub(crate) use arithmetic;
+
+arithmetic! { [] Lanes, Lanes, WIDTH }
+
+macro_rules! lanes {
+    ($k:ident => $value:expr) => {
+        Lanes(in_every_lane!(WIDTH, $k => $value))
+    };
 }
 
 impl Lanes {
@@ -86,63 +150,10 @@ impl Lanes {
     }
 }
 
-/// Operations of two numbers in every lane.
-macro_rules! operations {
-    ($($name:ident $function:ident $sign:tt;)*) => {$(
-        impl $name for Lanes {
-            type Output = Self;
-
-            #[inline(always)]
-            fn $function(self, other: Self) -> Self {
-                lanes!(k => self.0[k] $sign other.0[k])
-            }
-        }
-    )*};
-}
-
-operations! {
-    Add add +;
-    Sub sub -;
-    Mul mul *;
-    Div div /;
-}
-
-impl Mul<f64> for Lanes {
-    type Output = Self;
-
-    #[inline(always)]
-    fn mul(self, other: f64) -> Self {
-        lanes!(k => self.0[k] * other)
-    }
-}
-
 impl Over<f64> for Lanes {
     #[inline(always)]
     fn of(value: f64) -> Self {
         Self::splat(value)
-    }
-}
-
-impl Neg for Lanes {
-    type Output = Self;
-
-    #[inline(always)]
-    fn neg(self) -> Self {
-        lanes!(k => -self.0[k])
-    }
-}
-
-impl AddAssign for Lanes {
-    #[inline(always)]
-    fn add_assign(&mut self, other: Self) {
-        *self = *self + other;
-    }
-}
-
-impl SubAssign for Lanes {
-    #[inline(always)]
-    fn sub_assign(&mut self, other: Self) {
-        *self = *self - other;
     }
 }
 

@@ -48,3 +48,12 @@ pub mod quadrature;
 pub mod interval;
 #[doc(hidden)]
 pub mod xml;
+
+pub use error::{Complaint, Error, Excerpt, FilePosition, Result};
+pub use telling::{Tell, nobody};
+pub use units::{Quantity, inches, ounces, shown_length};
+pub(crate) use {clock::Clock, error::nearest, error::shortened, lanes::vectorized, lanes::widest};
+#[doc(hidden)]
+pub use {interval::Interval, lanes::Lanes, lanes::WIDTH, linear::dot, mistakes::Mistakes};
+#[doc(hidden)]
+pub use {number::significant, quadrature::RunningSum, quadrature::gauss, real::Over, real::Real};

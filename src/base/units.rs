@@ -24,8 +24,7 @@ use crate::base::typed::{mixed, number, plain, readings, split, terms};
 
 /// An inch (m).
 pub const INCH: f64 = 0.0254;
-/// A foot (m).
-pub const FOOT: f64 = 0.3048;
+const FOOT: f64 = 0.3048;
 const MILE: f64 = 1609.344;
 const POUND: f64 = 0.453_592_37;
 const OUNCE: f64 = POUND / 16.0;

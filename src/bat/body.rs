@@ -5,12 +5,9 @@
 
 use std::sync::Arc;
 
-use crate::base::error::{Error, Result};
 use crate::base::marks::written_out;
-use crate::base::mistakes::Mistakes;
-use crate::base::number::significant;
-use crate::base::quadrature::{RunningSum, converged, gauss};
-use crate::base::units::shown_length;
+use crate::base::quadrature::converged;
+use crate::base::{Error, Mistakes, Result, RunningSum, gauss, shown_length, significant};
 use crate::bat::edit::{Change, Edit};
 use crate::bat::fixtures::Fixtures;
 use crate::bat::inertia::Inertia;

@@ -1,7 +1,7 @@
 //! What is unknown or unusual about a bat, and which measured value does not fit it?
 
-use crate::base::number::significant;
-use crate::base::units::{ounce_square_inches, shown_length};
+use crate::base::units::ounce_square_inches;
+use crate::base::{shown_length, significant};
 use crate::bat::body::{Bat, STANDARD_PIVOT};
 use crate::bat::inertia::Inertia;
 use crate::bat::layup::Layup;

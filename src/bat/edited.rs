@@ -3,7 +3,7 @@
 //! The density is that of the bat before the edits, as weighing settled it. Wood that is taken off therefore reduces
 //! the mass, and an added weight increases it.
 
-use crate::base::error::{Complaint, Error, Result};
+use crate::base::{Complaint, Error, Result};
 use crate::bat::body::{Bat, Parts};
 use crate::bat::edit::{Change, Edit, Sleeve};
 use crate::bat::fixtures::{Attachment, Fixtures, Region, Tape};

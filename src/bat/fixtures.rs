@@ -167,8 +167,7 @@ impl Fixtures {
     pub fn keeps_still(&self, [a, b]: [f64; 2]) -> bool {
         self.supports.iter().any(|Support { x, kind }| {
             let [to_a, to_b] = [x - a, x - b];
-            let there = to_a.abs().min(to_b.abs()) <= SAME_PLACE;
-            there || *kind == Held::Clamped && to_a * to_b < 0.0
+            to_a.abs().min(to_b.abs()) <= SAME_PLACE || *kind == Held::Clamped && to_a * to_b < 0.0
         })
     }
 

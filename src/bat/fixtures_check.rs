@@ -1,7 +1,6 @@
 //! Can these fixtures be on a bat?
 
-use crate::base::error::{Error, Result};
-use crate::base::mistakes::{self, Mistakes};
+use crate::base::{Error, Mistakes, Result, mistakes};
 use crate::bat::fixtures::{Attachment, Fixtures, Held, Region};
 use crate::bat::part::{Part, SOFTEST};
 use crate::bat::profile::{Profile, SAME_PLACE};

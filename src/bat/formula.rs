@@ -5,7 +5,7 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use crate::base::error::Complaint;
+use crate::base::Complaint;
 use crate::bat::formula_text;
 use crate::bat::formula_tree::Node;
 

@@ -1,7 +1,6 @@
 //! A profile from formulas: it is cut at corners and features, and checked everywhere.
 
-use crate::base::error::{Complaint, Error, Result, shortened};
-use crate::base::golden;
+use crate::base::{Complaint, Error, Result, golden, shortened};
 use crate::bat::formula::Formula;
 use crate::bat::formula_bounds::Bounds;
 use crate::bat::profile::{
@@ -68,7 +67,7 @@ impl Profile {
             interpolation: Interpolation::Linear,
         };
         for (k, piece) in written.iter().enumerate() {
-            let named = Named { k, piece, length };
+            let named = NamedPiece { k, piece, length };
             let floor = ROUND_OFF * named.largest()?;
             for (from, to) in named.smooth_parts()? {
                 let (outer, inner) = (piece.outer.clone(), piece.inner.clone());
@@ -139,7 +138,7 @@ fn metres(value: f64) -> String {
 }
 
 /// A written piece and its name in messages.
-struct Named<'a> {
+struct NamedPiece<'a> {
     k: usize,
     piece: &'a FormulaPiece,
     /// Length of the whole bat (m).
@@ -147,9 +146,9 @@ struct Named<'a> {
 }
 
 /// Places along a smooth piece, `s` in [0, 1], and the sections there.
-type Samples = Vec<(f64, Section)>;
+type PieceSamples = Vec<(f64, Section)>;
 
-impl Named<'_> {
+impl NamedPiece<'_> {
     fn formulas(&self) -> impl Iterator<Item = (&'static str, &Formula)> {
         let inner = self.piece.inner.iter().map(|inner| ("inner_formula", inner));
         [("formula", &self.piece.outer)].into_iter().chain(inner)
@@ -211,14 +210,14 @@ impl Named<'_> {
         Ok(cuts.windows(2).map(|pair| (pair[0], pair[1])).collect())
     }
 
-    fn samples(&self, curves: &Curves) -> Samples {
+    fn samples(&self, curves: &Curves) -> PieceSamples {
         let share = (curves.to - curves.from) / (self.piece.to - self.piece.from);
         let count = (SAMPLES * share).ceil().max(LEAST_SAMPLES);
         (0..=count as usize).map(|j| (j as f64 / count, curves.at(j as f64 / count))).collect()
     }
 
     /// Both radii must be possible at the samples and at the minima between them.
-    fn check(&self, curves: &Curves, samples: &Samples) -> Result<()> {
+    fn check(&self, curves: &Curves, samples: &PieceSamples) -> Result<()> {
         let places = samples.iter().copied();
         let bottoms = [
             bottom(curves, samples, |section| section.outer),
@@ -337,7 +336,7 @@ impl Named<'_> {
 /// neighbours; `None` if no sample is.
 fn bottom(
     curves: &Curves,
-    samples: &Samples,
+    samples: &PieceSamples,
     of: impl Fn(Section) -> f64,
 ) -> Option<(f64, Section)> {
     let lows = samples.windows(3).filter(|w| of(w[1].1) < of(w[0].1) && of(w[1].1) <= of(w[2].1));
@@ -347,7 +346,7 @@ fn bottom(
 }
 
 /// Both ends of a smooth piece and its widest place.
-fn add_stations(stations: &mut Stations, curves: &Curves, samples: &Samples) {
+fn add_stations(stations: &mut Stations, curves: &Curves, samples: &PieceSamples) {
     let widest = bottom(curves, samples, |section| -section.outer);
     let places = [Some((0.0, curves.at(0.0))), widest, Some((1.0, curves.at(1.0)))];
     for (s, Section { outer, inner }) in places.into_iter().flatten() {

@@ -22,7 +22,7 @@ use winnow::error::{ErrMode, ParserError};
 use winnow::stream::{LocatingSlice, Location, Stateful, Stream};
 use winnow::token::{one_of, take_while};
 
-use crate::base::error::{Complaint, nearest, shortened};
+use crate::base::{Complaint, nearest, shortened};
 use crate::bat::formula_tree::{FUNCTIONS, Node};
 
 /// Longest formula that is read (characters).
@@ -44,7 +44,7 @@ pub(crate) fn read(text: &str) -> Result<Node, (Complaint, Range<usize>)> {
         let expected = "a formula of x, such as \"0.0125 + 0.02*x\"";
         return Err((Complaint::new("", "an empty formula", expected), 0..text.len()));
     }
-    let mut input = Input { input: LocatingSlice::new(text), state: 0 };
+    let mut input = FormulaInput { input: LocatingSlice::new(text), state: 0 };
     match whole(&mut input) {
         Ok(root) if root.branches() > MOST_BRANCHES => {
             let found = format!("{} abs, min and max in one formula", root.branches());
@@ -61,7 +61,7 @@ pub(crate) fn read(text: &str) -> Result<Node, (Complaint, Range<usize>)> {
 }
 
 /// The remaining text, its place, and its depth in brackets and powers.
-type Input<'a> = Stateful<LocatingSlice<&'a str>, usize>;
+type FormulaInput<'a> = Stateful<LocatingSlice<&'a str>, usize>;
 
 /// A mistake at a byte of the text.
 #[derive(Debug)]
@@ -73,10 +73,10 @@ struct Fault {
     hint: String,
 }
 
-impl ParserError<Input<'_>> for Fault {
+impl ParserError<FormulaInput<'_>> for Fault {
     type Inner = Self;
 
-    fn from_input(input: &Input<'_>) -> Self {
+    fn from_input(input: &FormulaInput<'_>) -> Self {
         let offset = input.current_token_start();
         Self { offset, found: None, expected: String::new(), hint: String::new() }
     }
@@ -87,7 +87,7 @@ impl ParserError<Input<'_>> for Fault {
 }
 
 impl Fault {
-    fn new(input: &Input, expected: impl Into<String>) -> ErrMode<Self> {
+    fn new(input: &FormulaInput, expected: impl Into<String>) -> ErrMode<Self> {
         ErrMode::Cut(Self { expected: expected.into(), ..Self::from_input(input) })
     }
 
@@ -132,7 +132,7 @@ fn in_name(c: char) -> bool {
     c.is_alphabetic() || c.is_ascii_digit() || c == '_' || c == '.'
 }
 
-fn whole(input: &mut Input) -> ModalResult<Node, Fault> {
+fn whole(input: &mut FormulaInput) -> ModalResult<Node, Fault> {
     blanks(input)?;
     let root = sum(input)?;
     if input.eof_offset() == 0 {
@@ -141,22 +141,24 @@ fn whole(input: &mut Input) -> ModalResult<Node, Fault> {
     Err(Fault::new(input, "an operator (+ - * / ^) or the end"))
 }
 
-fn blanks(input: &mut Input) -> ModalResult<(), Fault> {
+fn blanks(input: &mut FormulaInput) -> ModalResult<(), Fault> {
     take_while(0.., [' ', '\t', '\r', '\n']).void().parse_next(input)
 }
 
 /// One of these characters and the blanks behind it.
-fn symbol<'a, const N: usize>(symbols: [char; N]) -> impl Parser<Input<'a>, char, ErrMode<Fault>> {
+fn symbol<'a, const N: usize>(
+    symbols: [char; N],
+) -> impl Parser<FormulaInput<'a>, char, ErrMode<Fault>> {
     terminated(one_of(symbols), blanks)
 }
 
-fn sum(input: &mut Input) -> ModalResult<Node, Fault> {
+fn sum(input: &mut FormulaInput) -> ModalResult<Node, Fault> {
     let first = product(input)?;
     let more = (symbol(['+', '-']).map(|sign| sign == '-'), cut_err(product));
     list(first, more, Node::Sum, input)
 }
 
-fn product(input: &mut Input) -> ModalResult<Node, Fault> {
+fn product(input: &mut FormulaInput) -> ModalResult<Node, Fault> {
     let first = signed(input)?;
     let more = (symbol(['*', '/']).map(|sign| sign == '/'), cut_err(signed));
     list(first, more, Node::Product, input)
@@ -165,9 +167,9 @@ fn product(input: &mut Input) -> ModalResult<Node, Fault> {
 /// `first` alone, or all of them in a node of that kind.
 fn list<'a>(
     first: Node,
-    more: impl Parser<Input<'a>, (bool, Node), ErrMode<Fault>>,
+    more: impl Parser<FormulaInput<'a>, (bool, Node), ErrMode<Fault>>,
     kind: fn(Vec<(bool, Node)>) -> Node,
-    input: &mut Input<'a>,
+    input: &mut FormulaInput<'a>,
 ) -> ModalResult<Node, Fault> {
     let rest: Vec<(bool, Node)> = repeat(0.., more).parse_next(input)?;
     if rest.is_empty() {
@@ -176,14 +178,14 @@ fn list<'a>(
     Ok(kind([(false, first)].into_iter().chain(rest).collect()))
 }
 
-fn signed(input: &mut Input) -> ModalResult<Node, Fault> {
+fn signed(input: &mut FormulaInput) -> ModalResult<Node, Fault> {
     let signs: Vec<char> = repeat(0.., symbol(['+', '-'])).parse_next(input)?;
     let value = power(input)?;
     let negative = signs.iter().filter(|sign| **sign == '-').count() % 2 == 1;
     Ok(if negative { Node::Negative(Box::new(value)) } else { value })
 }
 
-fn power(input: &mut Input) -> ModalResult<Node, Fault> {
+fn power(input: &mut FormulaInput) -> ModalResult<Node, Fault> {
     let base = atom(input)?;
     let operator = terminated(alt(("**", "^")), blanks);
     let exponent = opt(preceded(operator, cut_err(deeper(signed)))).parse_next(input)?;
@@ -195,8 +197,8 @@ fn power(input: &mut Input) -> ModalResult<Node, Fault> {
 
 /// The parser `inner` one level of brackets or powers deeper; an error below [`DEEPEST`] levels.
 fn deeper<'a, T>(
-    mut inner: impl FnMut(&mut Input<'a>) -> ModalResult<T, Fault>,
-) -> impl FnMut(&mut Input<'a>) -> ModalResult<T, Fault> {
+    mut inner: impl FnMut(&mut FormulaInput<'a>) -> ModalResult<T, Fault>,
+) -> impl FnMut(&mut FormulaInput<'a>) -> ModalResult<T, Fault> {
     move |input| {
         if input.state == DEEPEST {
             let expected = format!("at most {DEEPEST} levels of brackets and powers");
@@ -209,7 +211,7 @@ fn deeper<'a, T>(
     }
 }
 
-fn atom(input: &mut Input) -> ModalResult<Node, Fault> {
+fn atom(input: &mut FormulaInput) -> ModalResult<Node, Fault> {
     const EXPECTED: &str = "a number, x, pi, a function or a bracket";
     match input.peek_token() {
         Some('(') => {
@@ -224,7 +226,7 @@ fn atom(input: &mut Input) -> ModalResult<Node, Fault> {
     }
 }
 
-fn closed(input: &mut Input, expected: &str) -> ModalResult<(), Fault> {
+fn closed(input: &mut FormulaInput, expected: &str) -> ModalResult<(), Fault> {
     match opt(symbol([')'])).parse_next(input)? {
         Some(_) => Ok(()),
         None => Err(Fault::new(input, expected)),
@@ -232,7 +234,7 @@ fn closed(input: &mut Input, expected: &str) -> ModalResult<(), Fault> {
 }
 
 /// `12`, `1.`, `.5`, `2.5e-3`.
-fn number(input: &mut Input) -> ModalResult<Node, Fault> {
+fn number(input: &mut FormulaInput) -> ModalResult<Node, Fault> {
     let start = input.checkpoint();
     let digits = || take_while(0.., '0'..='9');
     let sign = || opt(one_of(['+', '-']));
@@ -253,7 +255,7 @@ fn number(input: &mut Input) -> ModalResult<Node, Fault> {
 }
 
 /// `x`, `pi` or a function with its arguments.
-fn named(input: &mut Input) -> ModalResult<Node, Fault> {
+fn named(input: &mut FormulaInput) -> ModalResult<Node, Fault> {
     let start = input.checkpoint();
     let name = terminated(take_while(1.., in_name), blanks).parse_next(input)?;
     let function = match name {
@@ -283,7 +285,7 @@ fn named(input: &mut Input) -> ModalResult<Node, Fault> {
 }
 
 /// An unknown name, with the nearest valid one.
-fn unknown_name(input: &Input, unknown: &str) -> ErrMode<Fault> {
+fn unknown_name(input: &FormulaInput, unknown: &str) -> ErrMode<Fault> {
     let functions = FUNCTIONS.map(|(name, _)| name);
     let names: Vec<&str> = ["x", "pi"].into_iter().chain(functions).collect();
     let expected = format!("x, pi or a function: {}", functions.join(", "));

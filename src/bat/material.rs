@@ -7,9 +7,8 @@ use std::sync::LazyLock;
 
 use serde::{Deserialize, Serialize};
 
-use crate::base::error::Result;
 use crate::base::interval::Rectangle;
-use crate::base::number::significant;
+use crate::base::{Result, significant};
 
 /// A material; for wood the values are along the grain, which is the bat's axis.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -5,8 +5,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::base::error::Result;
-use crate::base::units::Quantity;
+use crate::base::{Quantity, Result};
 use crate::bat::edit::{Bore, Cork, Cup, Cut, ScaleDiameter, Shorten, Sleeve};
 use crate::bat::fixtures::{Absorber, Attachment, Grip, Joint, Region, Support, Tape};
 use crate::bat::layup::Layer;

@@ -43,3 +43,13 @@ pub mod body;
 mod doubts;
 mod edited;
 pub mod turned;
+
+pub use body::{Bat, STANDARD_PIVOT};
+pub use edit::{Bore, Change, Cork, Cup, Cut, Edit, ScaleDiameter, Shorten, Sleeve};
+pub use fixtures::{Absorber, Attachment, Fixtures, Grip, Held, Joint, Region, Support, Tape};
+pub use layup::{Layer, Layup, Worth};
+pub use material::{BUILT_IN, Material, PoissonRatios, Scatter, ShearModuli};
+pub use profile::{FormulaPiece, Interpolation, Piece, Profile, Radii, Section, Stations};
+pub use {formula::Formula, inertia::Inertia, theory::Theory, weighed::Weighed};
+#[doc(hidden)]
+pub use {profile::Cubics, profile::SAME_PLACE, turned::DiameterChange};

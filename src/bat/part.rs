@@ -1,9 +1,6 @@
 //! What is a member of a fixture, and is its value possible?
 
-use crate::base::error::{Error, Result};
-use crate::base::mistakes::Mistakes;
-use crate::base::number::significant;
-use crate::base::units::{Quantity, shown_length};
+use crate::base::{Error, Mistakes, Quantity, Result, shown_length, significant};
 use crate::bat::fixtures::Held;
 use crate::bat::layup::Layer;
 use crate::bat::material::{Material, PoissonRatios, ShearModuli};

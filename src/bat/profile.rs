@@ -2,8 +2,7 @@
 //!
 //! [`Profile::new`] lays curves through [`Stations`]; [`Profile::at`] gives the [`Section`].
 
-use crate::base::error::{Complaint, Error, Result};
-use crate::base::mistakes::Mistakes;
+use crate::base::{Complaint, Error, Mistakes, Result};
 use crate::bat::formula::Formula;
 use crate::bat::pchip::{bernstein, cubics, subdivide};
 pub use crate::bat::stations::{Interpolation, Section, Stations};

@@ -5,8 +5,7 @@
 
 use std::cmp::Ordering;
 
-use crate::base::error::{Complaint, Error, Result};
-use crate::base::units;
+use crate::base::{Complaint, Error, Result, units};
 use crate::bat::formula::Formula;
 use crate::bat::pchip::subdivide;
 use crate::bat::profile::{

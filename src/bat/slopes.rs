@@ -16,7 +16,7 @@ use crate::bat::material::Material;
 use crate::bat::profile::Section;
 
 /// A ring of one material, and how far its two radii move with the radius that is changed.
-struct Ring<'a> {
+struct MovedRing<'a> {
     material: &'a Material,
     section: Section,
     /// Of the outer and of the inner radius, 0 or 1.
@@ -26,7 +26,7 @@ struct Ring<'a> {
     widens: f64,
 }
 
-impl Ring<'_> {
+impl MovedRing<'_> {
     /// Derivatives of the ring's values, per metre of radius.
     fn slope(&self) -> Worth {
         let Self {
@@ -60,7 +60,8 @@ impl Layup {
         let moved = |of: usize, moves: [[f64; 2]; 2]| {
             let ring = |k: usize, material, section| {
                 let (hole, moves) = (self.hole(wall, k), moves[k.min(1)]);
-                Ring { material, section, moves, hole: hole.share, widens: hole.slopes[of] }.slope()
+                MovedRing { material, section, moves, hole: hole.share, widens: hole.slopes[of] }
+                    .slope()
             };
             let parts = self.parts(wall).enumerate();
             parts.fold(Worth::default(), |sum, (k, (material, section))| {
@@ -72,7 +73,7 @@ impl Layup {
         let inner = moved(1, [[0.0, 1.0], [0.0; 2]]);
         let bore = |material| {
             let (section, moves) = (wall.bore(), [1.0, 0.0]);
-            Ring { material, section, moves, hole: 0.0, widens: 0.0 }.slope()
+            MovedRing { material, section, moves, hole: 0.0, widens: 0.0 }.slope()
         };
         [outer, self.core.as_ref().map_or(inner, |core| plus(inner, bore(core)))]
     }

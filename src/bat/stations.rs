@@ -2,8 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::base::error::{Error, Result};
-use crate::base::mistakes::{self, Mistakes};
+use crate::base::{Error, Mistakes, Result, mistakes};
 
 /// How the radius runs between stations.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]

@@ -4,7 +4,7 @@
 //! that of the bore. The pieces of the profile are cut at the ends of the change and moved one by one: a cubic stays a
 //! cubic, and the rest of the curve stays unchanged.
 
-use crate::base::error::{Error, Result};
+use crate::base::{Error, Result};
 use crate::bat::body::Bat;
 use crate::bat::pchip::{bernstein, subdivide};
 use crate::bat::profile::{Piece, SAME_PLACE};

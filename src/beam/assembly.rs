@@ -4,8 +4,7 @@ use std::io::{self, Write};
 
 use nalgebra_sparse::{CooMatrix, CscMatrix};
 
-use crate::bat::body::Bat;
-use crate::bat::theory::Theory;
+use crate::bat::{Bat, Theory};
 use crate::beam::degree::{OfDegree, of_degree};
 use crate::beam::element::Element;
 use crate::beam::hermite::elements;

@@ -4,7 +4,7 @@
 //! coefficient of the deflection over an elastic bed. It may deflect by `√δ s`, where `s` is its strain and `δ = U/k` in
 //! the unit of energy `U`. A support has `δ = 0`.
 
-use crate::base::real::{Over, Real};
+use crate::base::{Over, Real};
 
 /// A strain in addition to those of the elements.
 #[derive(Debug, Clone, Copy)]

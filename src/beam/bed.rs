@@ -9,7 +9,7 @@
 //!
 //! where `λ` is the load at the outer end and `B` gives what strains add to the motion there.
 
-use crate::base::real::{Over, Real};
+use crate::base::{Over, Real};
 use crate::beam::footing::{
     Crossing, Footing, Given, Meeting, Rest, Span, product, sums, two_springs,
 };

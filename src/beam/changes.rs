@@ -3,7 +3,7 @@
 //! The differences of the strains that [`Motion::take_defect`] leaves are integrated outwards. The free rigid motions
 //! are then removed, so that the change carries no momentum and moves no contact.
 
-use crate::base::real::{Over, Real};
+use crate::base::{Over, Real};
 use crate::beam::holds::Given;
 use crate::beam::motion::{Known, Motion};
 use crate::beam::rule::MOST_POINTS;

@@ -15,8 +15,8 @@
 
 use std::ops::{Index, IndexMut};
 
+use crate::base::Real;
 use crate::base::linear::{determinant, solve_two};
-use crate::base::real::Real;
 use crate::beam::element::MOST_WIDTH;
 use crate::beam::fixed::unit;
 use crate::beam::placed::Placed;
@@ -25,7 +25,7 @@ use crate::beam::walk::{Run, What};
 
 /// A symmetric form whose last two unknowns are deflection and rotation.
 #[derive(Debug, Clone, Default)]
-struct Form<R> {
+struct BorderForm<R> {
     size: usize,
     /// Rows one after the other; the upper triangle may be out of date while unknowns are eliminated.
     values: Vec<R>,
@@ -33,7 +33,7 @@ struct Form<R> {
     column: Vec<R>,
 }
 
-impl<R> Index<(usize, usize)> for Form<R> {
+impl<R> Index<(usize, usize)> for BorderForm<R> {
     type Output = R;
 
     #[inline(always)]
@@ -42,7 +42,7 @@ impl<R> Index<(usize, usize)> for Form<R> {
     }
 }
 
-impl<R> IndexMut<(usize, usize)> for Form<R> {
+impl<R> IndexMut<(usize, usize)> for BorderForm<R> {
     #[inline(always)]
     fn index_mut(&mut self, (i, j): (usize, usize)) -> &mut R {
         &mut self.values[i * self.size + j]
@@ -76,8 +76,8 @@ pub fn slower_each<R: Real>(view: &View<R>, omega: R) -> Option<R> {
 
 /// The form of one side at the root; adds its negative pivots.
 #[inline(always)]
-fn inwards<R: Real>(view: &View<R>, side: usize, tau: R, count: &mut R) -> Option<Form<R>> {
-    let (mut form, mut next) = (Form::new(2), Form::default());
+fn inwards<R: Real>(view: &View<R>, side: usize, tau: R, count: &mut R) -> Option<BorderForm<R>> {
+    let (mut form, mut next) = (BorderForm::new(2), BorderForm::default());
     for form in [&mut form, &mut next] {
         form.values.reserve((view.strains + 4) * (view.strains + 4));
     }
@@ -94,7 +94,7 @@ fn inwards<R: Real>(view: &View<R>, side: usize, tau: R, count: &mut R) -> Optio
     Some(form)
 }
 
-impl<R: Real> Form<R> {
+impl<R: Real> BorderForm<R> {
     fn new(size: usize) -> Self {
         let mut form = Self::default();
         form.clear(size);
@@ -372,8 +372,8 @@ impl<R: Real> Form<R> {
 mod tests {
     use super::*;
 
-    fn form(rows: &[&[f64]]) -> Form<f64> {
-        Form { size: rows.len(), values: rows.concat(), column: vec![] }
+    fn form(rows: &[&[f64]]) -> BorderForm<f64> {
+        BorderForm { size: rows.len(), values: rows.concat(), column: vec![] }
     }
 
     #[test]

@@ -24,9 +24,7 @@
 //! an equilibrated field; Rayleigh's, Schwarz' and Grammel's quotients in L. Collatz,
 //! Eigenwertaufgaben mit technischen Anwendungen (1963).
 
-use crate::base::linear::dot;
-use crate::base::quadrature::RunningSum;
-use crate::base::real::{Over, Real};
+use crate::base::{Over, Real, RunningSum, dot};
 use crate::beam::element::{MOST_STRAINS, MOST_TERMS};
 use crate::beam::motion::Motion;
 use crate::beam::rule::MOST_POINTS;

@@ -1,6 +1,6 @@
 //! From a degree and a theory, known at run time, to code compiled for them.
 
-use crate::bat::theory::Theory;
+use crate::bat::Theory;
 use crate::beam::mesh::Mesh;
 
 /// Mesh, degree and theory of a bat's elements.

@@ -17,7 +17,7 @@
 //! coefficients of a strain, `W` the number of all strains of an element plus 2: `N` without shear,
 //! `2N − 2` with it.
 
-use crate::base::real::{Over, Real};
+use crate::base::{Over, Real};
 use crate::beam::rule::{MOST_POINTS, Rule};
 
 /// Coefficients of `P_0 … P_{N−1}`, or as many other numbers.

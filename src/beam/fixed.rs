@@ -7,9 +7,9 @@
 //! its root, give strains; the result is the set of strains nearest to them that the contacts allow ([`Holds`]). If the
 //! contacts leave rigid motions free, these are removed as for a free bat.
 
-use crate::base::quadrature::{RunningSum, legendre};
-use crate::base::real::{Over, Real};
-use crate::bat::body::Bat;
+use crate::base::quadrature::legendre;
+use crate::base::{Over, Real, RunningSum};
+use crate::bat::Bat;
 use crate::beam::attached::{Contact, Spring};
 use crate::beam::holds::{Border, Build, Given, Holds, Span, Under};
 use crate::beam::mesh::Mesh;

@@ -9,8 +9,7 @@
 //! This form is kept along the pass to the root: a cell adds compliance ([`Footing::through`]), a contact adds
 //! stiffness ([`Footing::meet`]).
 
-use crate::base::quadrature::RunningSum;
-use crate::base::real::{Over, Real};
+use crate::base::{Over, Real, RunningSum};
 
 /// An element to be crossed: the index of its first strain, the contributions of its strains to deflection and rotation
 /// at its outer end, and its length (m).

@@ -1,8 +1,7 @@
 //! The elements in the textbooks' unknowns: deflections, rotations, bubbles.
 
-use crate::base::linear::dot;
-use crate::bat::body::Bat;
-use crate::bat::theory::Theory;
+use crate::base::dot;
+use crate::bat::{Bat, Theory};
 use crate::beam::element::{Element, Matrix, Samples, Vector, integrated};
 use crate::beam::mesh::{self, Mesh};
 use crate::beam::rule::Rule;

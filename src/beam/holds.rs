@@ -12,7 +12,7 @@
 //! Worked out here: a Riccati recursion along the bat. A. E. Bryson, Y.-C. Ho, Applied Optimal Control (1975), chapter
 //! 5, has the sweep method for problems in time.
 
-use crate::base::real::{Over, Real};
+use crate::base::{Over, Real};
 use crate::beam::bed::Bed;
 use crate::beam::footing::{Crossing, Footing, Meeting, Rest, product};
 
@@ -27,7 +27,7 @@ const RIGID: f64 = f64::from_bits((1023 + 266) << 52);
 #[derive(Debug, Clone)]
 pub struct Holds<S> {
     /// The steps of the knob side and of the tip side, inwards from the outermost contact.
-    sides: [Vec<Step<S>>; 2],
+    sides: [Vec<HoldStep<S>>; 2],
     root: Meeting<S>,
     /// Stiffnesses that hold the deflection and the rotation of the root; 0 where they are free.
     pub held: [f64; 2],
@@ -37,7 +37,7 @@ pub struct Holds<S> {
 
 /// One step of the pass.
 #[derive(Debug, Clone)]
-enum Step<S> {
+enum HoldStep<S> {
     /// An element or a joint.
     Cell(Crossing<S>),
     /// An element on an elastic bed.
@@ -62,7 +62,7 @@ pub struct Border<S> {
 /// One side while it is built, inwards from its free end.
 #[derive(Default)]
 pub struct Build<S> {
-    steps: Vec<Step<S>>,
+    steps: Vec<HoldStep<S>>,
     footing: Footing,
 }
 
@@ -76,7 +76,7 @@ impl<S: Real> Build<S> {
         let (length, (crossing, seen)) = (span.length, self.footing.through(span, compliance));
         self.footing = seen;
         self.footing.at.add(length);
-        self.steps.push(Step::Cell(crossing));
+        self.steps.push(HoldStep::Cell(crossing));
     }
 
     /// Adds a contact at the border.
@@ -86,14 +86,14 @@ impl<S: Real> Build<S> {
         let own = if border.turning { [0.0, 0.0, stiffness] } else { [stiffness, 0.0, 0.0] };
         let (meeting, footing) = self.footing.meet([[1.0, 0.0], [0.0, 1.0]], own);
         self.footing = footing;
-        self.steps.push(Step::Contact(border, meeting));
+        self.steps.push(HoldStep::Contact(border, meeting));
     }
 
     /// Adds an element on an elastic bed.
     pub fn cross_bed(&mut self, span: Span<S>, under: Under<S>) {
         let (bed, footing) = Bed::new(span, under, self.footing);
         self.footing = footing;
-        self.steps.push(Step::Bed(Box::new(bed)));
+        self.steps.push(HoldStep::Bed(Box::new(bed)));
     }
 }
 
@@ -149,7 +149,7 @@ impl<S: Real> Holds<S> {
     }
 }
 
-impl<S: Real> Step<S> {
+impl<S: Real> HoldStep<S> {
     /// The rest positions at the inner side, from those at the outer side. Leaves in `trace` what [`Self::outwards`]
     /// needs.
     fn inwards<R: Over<S>>(&self, rest: Rest<R>, given: Given<R>, trace: &mut Vec<R>) -> Rest<R> {

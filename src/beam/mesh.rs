@@ -4,8 +4,7 @@
 
 use serde::Serialize;
 
-use crate::bat::body::Bat;
-use crate::bat::profile::SAME_PLACE;
+use crate::bat::{Bat, SAME_PLACE};
 
 /// One element: a stretch of the profile.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -26,7 +25,7 @@ pub struct Element {
 
 /// A part of an element between two stations.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Part {
+pub struct ElementPart {
     /// Index of the piece of the profile it lies in.
     pub piece: usize,
     /// Beginning and end in the piece, in [0, 1].
@@ -67,7 +66,7 @@ impl Element {
     }
 
     /// Its parts between stations, knob first; a single part if there are no stations inside.
-    pub fn parts<'a>(&'a self, bat: &'a Bat) -> impl Iterator<Item = Part> + 'a {
+    pub fn parts<'a>(&'a self, bat: &'a Bat) -> impl Iterator<Item = ElementPart> + 'a {
         let mut end = 0.0;
         (self.piece..=self.last).map(move |k| {
             let piece = &bat.profile().pieces[k];
@@ -78,14 +77,14 @@ impl Element {
                 true => 1.0,
                 false => (piece.start + piece.length - self.start) / self.length,
             };
-            Part { piece: k, of_piece: [from, to], of_element: [begin, end] }
+            ElementPart { piece: k, of_piece: [from, to], of_element: [begin, end] }
         })
     }
 
     /// The piece at a place in [0, 1] of the element, and the position in the piece.
     fn at(&self, bat: &Bat, s: f64) -> (usize, f64) {
         let part = self.parts(bat).find(|part| s <= part.of_element[1]);
-        let Part { piece, of_piece: [from, to], of_element: [begin, end] } =
+        let ElementPart { piece, of_piece: [from, to], of_element: [begin, end] } =
             part.expect("the last part ends at 1");
         (piece, from + (to - from) * (s - begin) / (end - begin))
     }

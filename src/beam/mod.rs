@@ -41,3 +41,8 @@ pub mod wall;
 
 pub mod assembly;
 pub mod dowel;
+
+pub use dowel::{Dowel, Ends, UniformMode, beta_l};
+pub use rule::{DEGREES, MOST_POINTS, Rule};
+pub use {changes::Depth, degree::Elements, degree::OfDegree, degree::of_degree, mesh::Mesh};
+pub use {motion::Motion, statics::Statics, sweep::Loads, view::View};

@@ -1,8 +1,6 @@
 //! One bending motion of the bat: its shape and its energies.
 
-use crate::base::linear::dot;
-use crate::base::quadrature::RunningSum;
-use crate::base::real::{Over, Real};
+use crate::base::{Over, Real, RunningSum, dot};
 use crate::beam::element::{MOST_STRAINS, MOST_TERMS, integrated};
 use crate::beam::rule::MOST_POINTS;
 use crate::beam::sweep::Rigid;

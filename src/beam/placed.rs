@@ -2,9 +2,8 @@
 
 use std::ops::Range;
 
-use crate::base::real::Real;
-use crate::bat::body::Bat;
-use crate::bat::fixtures::{Attachment, Fixtures, Held};
+use crate::base::Real;
+use crate::bat::{Attachment, Bat, Fixtures, Held};
 use crate::beam::attached::{At, Contact, PointMass, Spring};
 use crate::beam::mesh::Mesh;
 use crate::beam::sweep::Bare;

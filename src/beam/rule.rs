@@ -2,10 +2,9 @@
 
 use std::sync::OnceLock;
 
-use crate::base::quadrature::{gauss, legendre};
-use crate::base::real::Real;
-use crate::bat::body::Bat;
-use crate::bat::profile::{Cubics, Radii, Section};
+use crate::base::quadrature::legendre;
+use crate::base::{Real, gauss};
+use crate::bat::{Bat, Cubics, Radii, Section};
 
 /// Lowest and highest degree of the elements' deflection.
 pub const DEGREES: std::ops::RangeInclusive<usize> = 3..=12;

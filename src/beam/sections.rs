@@ -2,15 +2,10 @@
 
 use std::sync::LazyLock;
 
-use crate::base::lanes::{Lanes, WIDTH};
-use crate::base::quadrature::gauss;
-use crate::base::real::Real;
-use crate::bat::body::Bat;
+use crate::base::{Lanes, Real, WIDTH, gauss};
 use crate::bat::formula_profile::LAST;
-use crate::bat::layup::{Layup, Worth};
-use crate::bat::profile::{Cubics, Radii, Section};
-use crate::bat::theory::Theory;
-use crate::beam::mesh::{Element, Mesh, Part};
+use crate::bat::{Bat, Cubics, Layup, Radii, Section, Theory, Worth};
+use crate::beam::mesh::{Element, ElementPart, Mesh};
 use crate::beam::rule::{GaussPoint, MOST_POINTS, Rule};
 
 /// The sections at the points of the rule on one element.
@@ -41,7 +36,7 @@ pub fn over<const Q: usize>(
     of: impl Fn(&Layup, Section) -> [f64; Q],
 ) -> [[f64; MOST_POINTS]; Q] {
     let mut moments = Moments::<Q>::new(rule.moments_of_sections());
-    for Part { piece, of_piece: [from, to], of_element: [begin, end] } in e.parts(bat) {
+    for ElementPart { piece, of_piece: [from, to], of_element: [begin, end] } in e.parts(bat) {
         let piece = &bat.profile().pieces[piece];
         let (layup, share) = (bat.layup(piece), end - begin);
         let Radii::Cubic(cubics) = &piece.radii else { continue };

@@ -1,7 +1,6 @@
 //! Where does the iteration for the slowest modes start?
 
-use crate::base::golden;
-use crate::base::real::Real;
+use crate::base::{Real, golden};
 use crate::beam::element::MOST_STRAINS;
 use crate::beam::rule::MOST_POINTS;
 use crate::beam::view::View;

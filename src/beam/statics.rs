@@ -20,12 +20,8 @@
 //! the least certain ones, and with this root they move only that end. With the root in the point of a cone, 4000
 //! elements lost half the digits.
 
-use crate::base::lanes::vectorized;
-use crate::base::quadrature::RunningSum;
-use crate::base::real::Real;
-use crate::bat::body::Bat;
-use crate::bat::layup::Worth;
-use crate::bat::theory::Theory;
+use crate::base::{Real, RunningSum, vectorized};
+use crate::bat::{Bat, Theory, Worth};
 use crate::beam::element::{Element, Samples};
 use crate::beam::fixed::Fixed;
 use crate::beam::mesh::Mesh;

@@ -2,8 +2,7 @@
 
 use std::ops::Range;
 
-use crate::base::quadrature::RunningSum;
-use crate::base::real::{Over, Real};
+use crate::base::{Over, Real, RunningSum};
 use crate::beam::element::{
     Link, MOST_TERMS, MOST_WIDTH, Matrix, Vector, on_strains, over_strains,
 };

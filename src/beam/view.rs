@@ -2,8 +2,8 @@
 
 use std::ops::{Deref, Range};
 
-use crate::base::real::Real;
-use crate::bat::theory::Theory;
+use crate::base::Real;
+use crate::bat::Theory;
 use crate::beam::fixed::Fixed;
 use crate::beam::placed::Placed;
 use crate::beam::rule::Rule;

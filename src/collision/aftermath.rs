@@ -14,9 +14,9 @@ use faer::c64;
 
 use serde::Serialize;
 
-use crate::bat::body::Bat;
+use crate::bat::Bat;
 use crate::collision::contact::collocation::polynomial;
-use crate::collision::contact::table::Piece;
+use crate::collision::contact::table::ForcePiece;
 use crate::collision::struck::Struck;
 use crate::modes::compliance::RigidMotion;
 use crate::modes::mode::Mode;
@@ -29,7 +29,7 @@ pub struct Aftermath<'a> {
     bat: &'a Bat,
     /// Position at which the force acts (m).
     pub place: f64,
-    pieces: Vec<Piece>,
+    pieces: Vec<ForcePiece>,
     rigid: Vec<Pushed>,
     modes: Vec<Rung<'a>>,
 }
@@ -132,7 +132,7 @@ pub struct PeakMotion {
 
 impl<'a> Aftermath<'a> {
     /// The solution's bat under that force at `place` (m). Every mode must oscillate.
-    pub fn new(bat: &'a Bat, solution: &'a Solution, place: f64, pieces: Vec<Piece>) -> Self {
+    pub fn new(bat: &'a Bat, solution: &'a Solution, place: f64, pieces: Vec<ForcePiece>) -> Self {
         let struck = Struck::new(bat, solution);
         let rigid = struck
             .rigid()
@@ -148,7 +148,7 @@ impl<'a> Aftermath<'a> {
 
     /// Time at which the ball leaves (s).
     pub fn end(&self) -> f64 {
-        self.pieces.last().map_or(0.0, Piece::end)
+        self.pieces.last().map_or(0.0, ForcePiece::end)
     }
 
     /// The bat at those times (s), which must rise.

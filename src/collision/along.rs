@@ -3,8 +3,7 @@
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use crate::base::telling::Tell;
-use crate::base::threads;
+use crate::base::{Tell, threads};
 use crate::collision::contact::abreast::meet::ABREAST;
 use crate::collision::hit::{Impact, greater};
 use crate::collision::hitter::Hitter;

@@ -1,6 +1,7 @@
 //! What each model predicts for a hit: one function per model.
 
 use std::cell::Cell;
+use std::f64::consts::PI;
 
 use crate::collision::contact::encounter::Encounter;
 use crate::collision::contact::power_law::LEAST_RESTITUTION;
@@ -224,78 +225,21 @@ impl Hitter<'_> {
         approach: &Approach,
         ladder: &Ladder,
         few: &[usize],
-        Contact { felt, met, accuracy, other }: Contact,
+        contact: Contact,
     ) -> HitAnswer {
         let Approach { x, closing, cor, known, .. } = *approach;
         let (ball, count) = (self.scene.ball.mass_kg, self.modes_used());
-        // Difference of another answer from this one at the end, and at the time when the ball first leaves.
-        let apart = |other: &Encounter| {
-            let apart = |other: f64, own: f64| (other - own).abs() / (ball * closing);
-            let first = apart(other.first_impulse, met.first_impulse);
-            [apart(other.impulse, met.impulse), first]
-        };
-        // A contact that does not end gives no information.
-        let both = |felt: &DrivingPoint, accuracy: f64| {
-            let other = self.meet(Blow::alone(x, felt, closing), accuracy);
-            other.map_or([1.0; 2], |(other, _)| apart(&other))
-        };
-        let first_error = Cell::new(0.0);
-        let count_first = |[all, first]: [f64; 2]| {
-            first_error.set(first_error.get() + first);
-            all
-        };
+        let Contact { felt, met, accuracy, .. } = contact;
         let mass = 1.0 / felt.inverse_mass;
         let rebound = met.impulse / (mass * closing) - 1.0;
         let (of_ball, slow) = (mass / ball, self.slow_modes());
         let answered = Answered { met, count, accuracy, rebound, of_ball, slow };
-        let shears = self.solution.theory.shears();
+        let beside = Beside { hitter: self, x, closing, contact, first: Cell::new(0.0) };
         let mut answer = HitAnswer::new(met.impulse, cor, met.lost_in_ball);
-        [answer.truncation, answer.steps, answer.wall] =
-            known.filter(|_| !met.is_delicate()).unwrap_or_else(|| {
-                let Encounter { changes, first_changes, .. } = met;
-                let in_first = |(few, by): (&usize, &f64)| (*few, by.abs() / (ball * closing));
-                let in_first = few.iter().zip(first_changes).map(in_first);
-                first_error.set(answered.left_out(shears, in_first));
-                /// Change of the exit speed, relative to the closing speed, up to which the first order is valid for a
-                /// ball that is met again.
-                const SMALL: f64 = 0.1;
-                let change = |(few, by): (&usize, &f64)| {
-                    let by = by.abs() / (ball * closing);
-                    let large = met.is_delicate() && (by > SMALL || by.is_nan());
-                    (*few, if large { both(&ladder.of(*few), accuracy)[0] } else { by })
-                };
-                let left_out = answered.left_out(shears, few.iter().zip(changes).map(change));
-                let by_steps = |accuracy| match other {
-                    Some(other) => other.map_or([1.0; 2], apart),
-                    None => both(felt, accuracy),
-                };
-                let steps = answered.steps(left_out, |accuracy| count_first(by_steps(accuracy)));
-                // A softer wall: it has all the flexibility that may be missing, and that of the delay of modes that
-                // follow the force at once, `y = C F − D F″ + …`, where `F″` of a half sine is `(π/T)² F`. On a stiff
-                // bat T is 2.86 to 3.14 times the time in which the ball would be compressed at its first speed; a wall
-                // makes it longer.
-                // Where a softer wall has no effect to first order, slower modes still have one, and the reverse: both
-                // count.
-                let wall = self.under(x).map_or(0.0, |under| {
-                    let late = under.late * (std::f64::consts::PI / (2.86 * self.pressed)).powi(2);
-                    let rest = felt.rest + under.unsure + late;
-                    let softer = DrivingPoint { rest, ..felt.clone() };
-                    let slower = Blow { slower: true, ..Blow::alone(x, felt, closing) };
-                    let slower =
-                        self.meet(slower, accuracy).map_or([1.0; 2], |(other, _)| apart(&other));
-                    count_first(both(&softer, accuracy)) + count_first(slower)
-                });
-                [left_out, steps, wall]
-            });
-        // A held bat: the errors of its slow modes may hide the effect of all further ones.
-        let other = ladder.beyond.and_then(|all| self.struck.otherwise(x, &ladder.modes, all));
-        if let Some((other, flexibility)) = other {
-            // The share of the energy in that flexibility.
-            let share = flexibility * met.peak_force.powi(2) / (mass * closing * closing);
-            if share > SLIGHT * self.effort.accuracy {
-                answer.error += count_first(both(&self.with_wall(x, other), accuracy));
-            }
-        }
+        [answer.truncation, answer.steps, answer.wall] = known
+            .filter(|_| !met.is_delicate())
+            .unwrap_or_else(|| beside.errors(&answered, ladder, few));
+        answer.error += beside.held(ladder, mass);
         let [magnified, round_off] = answered.magnified(ball * closing);
         answer.steps += round_off;
         // Possible effect of further touches, and of a restitution below the least one of the law.
@@ -304,13 +248,12 @@ impl Hitter<'_> {
         answer.error += self.wall_error + answer.truncation + answer.steps + answer.wall;
         // Duration of one push of the force (s): at most that of a half sine on a stiff bat.
         let push = met.time / (met.touches + met.reloads) as f64;
-        let push = push.min(std::f64::consts::PI * self.pressed);
+        let push = push.min(PI * self.pressed);
         for (doubt, [omega, _]) in self.struck.doubt(x).iter().zip(&self.modes) {
             // A mode hardly responds to changes of the force slower than itself.
-            let turns = omega * push / std::f64::consts::PI;
+            let turns = omega * push / PI;
             let change = doubt * mass * met.impulse / (ball * closing) / (1.0 + turns * turns);
-            answer.error += magnified * change;
-            first_error.set(first_error.get() + change);
+            answer.error += magnified * beside.counted([change; 2]);
         }
         let hard = (mass / ball).sqrt() * closing > FASTEST_MEASURED
             || met.compression > self.scene.ball.radius_m;
@@ -325,7 +268,7 @@ impl Hitter<'_> {
         answer.contact_time = Some(met.time);
         let exit_speed = met.first_impulse / ball - self.scene.ball_speed;
         // A ball that leaves only once does so at the end.
-        let own = first_error.get() + self.wall_error;
+        let own = beside.first.get() + self.wall_error;
         let error = match met.again() {
             false => answer.error,
             // The effect may be magnified even in the first touch.
@@ -340,6 +283,99 @@ impl Hitter<'_> {
         answer.in_modes = met.in_modes[walls..].to_vec();
         answer.lost_in_bat = met.lost_in_bat;
         answer
+    }
+}
+
+/// A contact, beside which others are computed for its errors.
+struct Beside<'a> {
+    hitter: &'a Hitter<'a>,
+    x: f64,
+    closing: f64,
+    contact: Contact<'a>,
+    /// Error of the exit speed, relative to the closing speed, at the time when the ball first leaves.
+    first: Cell<f64>,
+}
+
+impl Beside<'_> {
+    /// Impulse (N s) that changes the ball's speed by the closing speed.
+    fn unit(&self) -> f64 {
+        self.hitter.scene.ball.mass_kg * self.closing
+    }
+
+    /// Difference of another contact at the end, and at the time when the ball first leaves.
+    fn apart(&self, other: &Encounter) -> [f64; 2] {
+        let met = self.contact.met;
+        let pairs = [(other.impulse, met.impulse), (other.first_impulse, met.first_impulse)];
+        pairs.map(|(other, own)| (other - own).abs() / self.unit())
+    }
+
+    /// Difference of another blow. A contact that does not end gives no information.
+    fn of(&self, blow: Blow, accuracy: f64) -> [f64; 2] {
+        self.hitter.meet(blow, accuracy).map_or([1.0; 2], |(other, _)| self.apart(&other))
+    }
+
+    /// Difference if the ball meets another bat.
+    fn on(&self, felt: &DrivingPoint, accuracy: f64) -> [f64; 2] {
+        self.of(Blow::alone(self.x, felt, self.closing), accuracy)
+    }
+
+    /// A part of the error at the end; counts that at the time when the ball first leaves.
+    fn counted(&self, [all, first]: [f64; 2]) -> f64 {
+        self.first.set(self.first.get() + first);
+        all
+    }
+
+    /// Errors due to truncation, steps and wall.
+    fn errors(&self, answered: &Answered, ladder: &Ladder, few: &[usize]) -> [f64; 3] {
+        let Contact { felt, met, accuracy, other } = &self.contact;
+        let shears = self.hitter.solution.theory.shears();
+        let in_first = few.iter().zip(&met.first_changes);
+        let in_first = in_first.map(|(few, by)| (*few, by.abs() / self.unit()));
+        self.first.set(answered.left_out(shears, in_first));
+        /// Change of the exit speed, relative to the closing speed, up to which the first order is valid for a
+        /// ball that is met again.
+        const SMALL: f64 = 0.1;
+        let change = |(few, by): (&usize, &f64)| {
+            let by = by.abs() / self.unit();
+            let large = met.is_delicate() && (by > SMALL || by.is_nan());
+            (*few, if large { self.on(&ladder.of(*few), *accuracy)[0] } else { by })
+        };
+        let left_out = answered.left_out(shears, few.iter().zip(&met.changes).map(change));
+        let by_steps = |accuracy| match other {
+            Some(other) => other.map_or([1.0; 2], |other| self.apart(other)),
+            None => self.on(felt, accuracy),
+        };
+        let steps = answered.steps(left_out, |accuracy| self.counted(by_steps(accuracy)));
+        [left_out, steps, self.softer_and_slower()]
+    }
+
+    /// Error due to the wall: the effect of a softer one, and of slower modes. Where one has no effect to first order,
+    /// the other still has: both count.
+    ///
+    /// A softer wall has all the flexibility that may be missing, and that of the delay of modes that follow the force
+    /// at once, `y = C F − D F″ + …`, where `F″` of a half sine is `(π/T)² F`. On a stiff bat T is 2.86 to 3.14 times
+    /// the time in which the ball would be compressed at its first speed; a wall makes it longer.
+    fn softer_and_slower(&self) -> f64 {
+        let Contact { felt, accuracy, .. } = self.contact;
+        let Some(under) = self.hitter.under(self.x) else { return 0.0 };
+        let late = under.late * (PI / (2.86 * self.hitter.pressed)).powi(2);
+        let softer = DrivingPoint { rest: felt.rest + under.unsure + late, ..felt.clone() };
+        let slower = Blow { slower: true, ..Blow::alone(self.x, felt, self.closing) };
+        let slower = self.counted(self.of(slower, accuracy));
+        self.counted(self.on(&softer, accuracy)) + slower
+    }
+
+    /// Error on a held bat, where the errors of its slow modes may hide the effect of all further ones.
+    fn held(&self, ladder: &Ladder, mass: f64) -> f64 {
+        let (hitter, Contact { met, accuracy, .. }) = (self.hitter, &self.contact);
+        let other =
+            ladder.beyond.and_then(|all| hitter.struck.otherwise(self.x, &ladder.modes, all));
+        let Some((other, flexibility)) = other else { return 0.0 };
+        // The share of the energy in that flexibility.
+        let share = flexibility * met.peak_force.powi(2) / (mass * self.closing * self.closing);
+        let counts = share > SLIGHT * hitter.effort.accuracy;
+        let on = || self.on(&hitter.with_wall(self.x, other), *accuracy);
+        if counts { self.counted(on()) } else { 0.0 }
     }
 }
 

@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::base::error::{Error, Result};
 use crate::base::marks::written_out;
+use crate::base::{Error, Result};
 use crate::collision::contact::collider::{Law, LawTerms};
 use crate::collision::contact::power_law;
 

@@ -5,9 +5,8 @@
 
 use std::borrow::Cow;
 
-use crate::base::error::Result;
-use crate::base::telling::nobody;
-use crate::bat::body::Bat;
+use crate::base::{Result, nobody};
+use crate::bat::Bat;
 use crate::collision::sweep::{Accuracy, Round, Sweep, Trial};
 use crate::modes::batch::{Way, solutions};
 use crate::modes::prepared::{Prepared, prepare};

@@ -12,10 +12,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::base::error::{Error, Result};
-use crate::base::telling::Tell;
-use crate::bat::body::{Bat, STANDARD_PIVOT};
-use crate::bat::fixtures::{Fixtures, Held, Support};
+use crate::base::{Error, Result, Tell};
+use crate::bat::{Bat, Fixtures, Held, STANDARD_PIVOT, Support};
 use crate::collision::ball::Ball;
 use crate::collision::hit::{Impact, Model, Scene};
 use crate::collision::hitter::Hitter;

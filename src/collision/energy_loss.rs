@@ -23,7 +23,7 @@
 //! Project, Worcester Polytechnic Institute, Eqs 4-6 to 4-15. Eq. 4-15 prints `W_n(a)` where the
 //! script squares it; with the printed form the ball would gain from many vibrations.
 
-use crate::beam::dowel::{Ends, UniformMode, beta_l};
+use crate::beam::{Ends, UniformMode, beta_l};
 
 /// The two constants of the fit.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -4,9 +4,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::base::error::Result;
-use crate::base::threads;
-use crate::bat::body::{Bat, STANDARD_PIVOT};
+use crate::base::{Result, threads};
+use crate::bat::{Bat, STANDARD_PIVOT};
 use crate::collision::answer::LATER;
 use crate::collision::hit::{Impact, Model, Scene};
 use crate::collision::hitter::Hitter;

@@ -9,7 +9,7 @@ use faer::c64;
 use serde::Serialize;
 
 use crate::collision::contact::collocation::polynomial;
-use crate::collision::contact::table::Piece;
+use crate::collision::contact::table::ForcePiece;
 use crate::collision::contact::touch::DrivingPoint;
 
 /// The ball at an instant.
@@ -27,7 +27,7 @@ pub struct Moment {
 /// The ball from the first touch to the last, with the given number of instants in every piece of the force, ends
 /// included. It approaches at `speed` (m/s) a bat with those modes, ω (rad/s) and damping ratio, one for each gain.
 pub fn history(
-    pieces: &[Piece],
+    pieces: &[ForcePiece],
     felt: &DrivingPoint,
     modes: &[[f64; 2]],
     speed: f64,

@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::base::error::Result;
-use crate::bat::body::STANDARD_PIVOT;
+use crate::base::Result;
+use crate::bat::STANDARD_PIVOT;
 use crate::collision::ball::Ball;
 use crate::collision::contact::collider::{Law, LawTerms};
 use crate::collision::energy_loss::EnergyLoss;

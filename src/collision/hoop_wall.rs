@@ -16,8 +16,8 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use crate::base::error::Result;
-use crate::bat::body::Bat;
+use crate::base::Result;
+use crate::bat::Bat;
 use crate::collision::ball::Ball;
 use crate::collision::contact::touch::DrivingPoint;
 use crate::modes::compliance::taken;

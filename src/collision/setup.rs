@@ -4,9 +4,8 @@
 //! members have the same names in files, in the paths of a study and, with `-` for `_`, as options of the command line;
 //! messages write them in `` `backquotes` ``.
 
-use crate::base::error::{Error, Result};
-use crate::base::units::shown_length;
-use crate::bat::body::Bat;
+use crate::base::{Error, Result, shown_length};
+use crate::bat::Bat;
 use crate::collision::ball::Ball;
 use crate::collision::energy_loss::EnergyLoss;
 use crate::collision::figures::{BarrelSpeed, SwingLaw};

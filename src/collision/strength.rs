@@ -6,8 +6,7 @@
 
 use serde::Serialize;
 
-use crate::bat::body::Bat;
-use crate::bat::material::Material;
+use crate::bat::{Bat, Material};
 use crate::collision::aftermath::{Aftermath, Strained};
 use crate::collision::hit::{Effort, Model, Scene};
 use crate::collision::hitter::Hitter;

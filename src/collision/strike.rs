@@ -1,7 +1,7 @@
 //! A hit at one place: in full, at a glance, and in time.
 
 use crate::collision::answer::HitAnswer;
-use crate::collision::contact::table::Piece;
+use crate::collision::contact::table::ForcePiece;
 use crate::collision::contact::touch::DrivingPoint;
 use crate::collision::history::{Moment, history};
 use crate::collision::hit::{Energy, Impact, Model, Outcome, Scene};
@@ -95,9 +95,7 @@ impl Hitter<'_> {
             velocity += energy * gain;
             acceleration += energy * gain * omega * omega;
         }
-        if self.struck.bat.fixtures().keeps_still([x, self.scene.hands]) {
-            (velocity, acceleration) = (0.0, 0.0);
-        }
+        let moves = f64::from(!self.struck.bat.fixtures().keeps_still([x, self.scene.hands]));
         let exit = |impulse: f64| impulse / self.scene.ball.mass_kg - self.scene.ball_speed;
         Glance {
             x,
@@ -106,7 +104,7 @@ impl Hitter<'_> {
             late,
             later: late || again,
             vibration: (self.modes_used() > 0).then(|| in_modes.iter().sum()),
-            hands: [velocity.sqrt(), acceleration.sqrt()],
+            hands: [moves * velocity.sqrt(), moves * acceleration.sqrt()],
         }
     }
 
@@ -137,7 +135,7 @@ impl Hitter<'_> {
     }
 
     /// The force at `x` (m) in time, by the contact model; `None` if that model has no answer.
-    pub fn force(&self, x: f64) -> Option<Vec<Piece>> {
+    pub fn force(&self, x: f64) -> Option<Vec<ForcePiece>> {
         let (felt, closing) = (self.felt(x), self.closing(x)?);
         let (collider, law) = (self.collider.as_ref()?, self.law_at(x, closing)?);
         let meet = |accuracy| collider.meet_recorded(&felt, &*law, closing, accuracy);

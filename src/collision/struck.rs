@@ -1,7 +1,7 @@
 //! How far does the bat deflect under a ball, anywhere along its length?
 
-use crate::base::linear::dot;
-use crate::bat::body::Bat;
+use crate::base::dot;
+use crate::bat::Bat;
 use crate::collision::contact::touch::DrivingPoint;
 use crate::modes::compliance::{Flexible, RigidMotion, taken};
 use crate::modes::mode::Mode;

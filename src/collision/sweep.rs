@@ -5,10 +5,8 @@ use std::borrow::Cow;
 
 use serde::Serialize;
 
-use crate::base::error::Result;
-use crate::base::telling::{Tell, nobody};
-use crate::bat::body::Bat;
-use crate::bat::theory::Theory;
+use crate::base::{Result, Tell, nobody};
+use crate::bat::{Bat, Theory};
 use crate::collision::along::strikes;
 use crate::collision::hit::{Effort, Impact, MOST_WORK, Model, Outcome, Scene, greater};
 use crate::collision::hitter::Hitter;
@@ -62,9 +60,8 @@ impl Sweep {
     /// As [`sweep`].
     pub fn again(&self, bat: &Bat, trial: Trial, to: &Accuracy, places: &[f64]) -> Result<Self> {
         let accuracy = &Accuracy { theory: self.solution.theory, ..*to };
-        let mut first = Round::first(bat, trial, accuracy);
-        first.request.modes = self.solution.modes.len();
-        first.go_on((bat, trial), accuracy, places, self.solution.clone(), &nobody)
+        let (first, solution) = (Round::first(bat, trial, accuracy), self.solution.clone());
+        first.go_on((bat, trial), accuracy, places, solution, &nobody)
     }
 
     /// Whether every hit is resolved and its exit speed within the tolerance by its own estimate.
@@ -273,26 +270,19 @@ impl Round {
         loop {
             let hitter = Hitter::new(trial.model, trial.scene, bat, &solution, now.effort)?;
             if let Some((request, found)) = now.slow_modes(&hitter, bat) {
-                drop(hitter);
                 (solution, now.request) = (found, request);
                 continue;
             }
             let open = open(&impacts, request.tolerance, places.len());
-            let now_struck: Vec<f64> = open.iter().map(|k| places[*k]).collect();
-            let struck = strikes(&hitter, bat.length(), &now_struck, tell);
+            let places: Vec<f64> = open.iter().map(|k| places[*k]).collect();
+            let struck = strikes(&hitter, bat.length(), &places, tell);
             work += hitter.work();
-            drop(hitter);
             keep_better(&mut impacts, &open, struck);
             let worst = Worst::of(open.iter().filter_map(|k| impacts[*k].outcome.as_ref()));
             let met = impacts.iter().all(|impact| doubt(impact) <= request.tolerance);
             let improves = worst.error <= trial.most_left(before);
             before = [before[1], worst.error];
-            let mut next = now.finer(&worst, request.tolerance, planned, work);
-            if bat.damped() {
-                // Accurate motions with dashpots take long to compute, and a hit does not need them.
-                next.request.tolerance =
-                    next.request.tolerance.max(DAMPED.min(now.request.tolerance));
-            }
+            let next = now.finer(bat, &worst, request.tolerance, planned, work);
             let more = !met && improves && request.elements.is_none() && next != now;
             let stopped = more && work > most;
             if more && !stopped {
@@ -310,9 +300,10 @@ impl Round {
                 now.effort = next.effort;
             }
             now.effort.unsettled = stopped;
-            let open = |impact: &&mut Impact| stopped && doubt(impact) > request.tolerance;
-            let open = impacts.iter_mut().filter(open);
-            open.filter_map(|impact| impact.outcome.as_mut()).for_each(Outcome::unsettled);
+            let open = impacts.iter_mut().filter(|impact| doubt(impact) > request.tolerance);
+            if stopped {
+                open.filter_map(|impact| impact.outcome.as_mut()).for_each(Outcome::unsettled);
+            }
             let end = match (met, stopped, improves) {
                 (true, ..) => RoundsEnd::Met,
                 (_, true, _) => RoundsEnd::Stopped,
@@ -337,7 +328,7 @@ impl Round {
     }
 
     /// The next round: more modes, finer steps or more accurate modes, as the errors require.
-    fn finer(&self, worst: &Worst, tolerance: f64, planned: bool, work: u64) -> Self {
+    fn finer(&self, bat: &Bat, worst: &Worst, tolerance: f64, planned: bool, work: u64) -> Self {
         /// If a round takes this share of the allowed work, the next one takes as many modes as it needs at once.
         const DEAR: u64 = MOST_WORK / 16;
         let Self { mut request, mut effort } = *self;
@@ -359,6 +350,10 @@ impl Round {
         if left > 0.5 * tolerance {
             request.tolerance *= (0.3 * tolerance / left).clamp(1e-6, 0.1);
             request.tolerance = request.tolerance.max(1e-14);
+        }
+        if bat.damped() {
+            // Accurate motions with dashpots take long to compute, and a hit does not need them.
+            request.tolerance = request.tolerance.max(DAMPED.min(self.request.tolerance));
         }
         Self { request, effort }
     }

@@ -1,7 +1,7 @@
 //! A swing at a bat in one call: it chooses theory, fit to the tap, modes, wall and accuracy.
 
-use crate::base::error::{Error, Result};
-use crate::bat::body::Bat;
+use crate::base::{Error, Result};
+use crate::bat::Bat;
 use crate::collision::hit::{Impact, Model, Scene};
 use crate::collision::hitter::Hitter;
 use crate::collision::sweep::{Accuracy, Sweep, sweep};

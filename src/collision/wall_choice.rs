@@ -3,8 +3,8 @@
 //! It does if the user asks for it, and by default if its estimated effect exceeds a share of the tolerance. The
 //! estimate needs no solution.
 
-use crate::base::error::{Error, Result};
-use crate::bat::body::Bat;
+use crate::base::{Error, Result};
+use crate::bat::Bat;
 use crate::collision::figures::BarrelSpeed;
 use crate::collision::hit::{Model, Scene};
 use crate::collision::hoop_wall::{

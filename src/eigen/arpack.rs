@@ -11,8 +11,7 @@ use std::sync::{Mutex, PoisonError};
 
 use nalgebra_sparse::CscMatrix;
 
-use crate::base::error::{Error, Result};
-use crate::base::linear::dot;
+use crate::base::{Error, Result, dot};
 use crate::eigen::factor::Factor;
 use crate::eigen::lanczos::Ritz;
 use crate::eigen::shift_invert::{self, Noise, Pairs, multiply};

@@ -6,7 +6,7 @@ use faer::linalg::triangular_solve::{
 use faer::{Mat, Par, Side};
 use nalgebra_sparse::CscMatrix;
 
-use crate::base::error::{Error, Result};
+use crate::base::{Error, Result};
 use crate::eigen::factor::INDEFINITE;
 
 /// The `count` lowest eigenpairs of `K x = λ M x`, rising, with `xᵀMx = 1`.

@@ -17,7 +17,7 @@ use faer::sparse::{
 use faer::{Conj, MatMut, Par};
 use nalgebra_sparse::CscMatrix;
 
-use crate::base::error::{Error, Result};
+use crate::base::{Error, Result};
 
 /// `L` of `K + σM = L Lᵀ`.
 ///

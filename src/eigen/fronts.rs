@@ -8,8 +8,7 @@
 //! I. S. Duff, J. K. Reid, ACM Trans. Math. Softw. 9 (1983) 302: fronts. Sylvester's law of inertia: D has as many
 //! negative entries as K has negative eigenvalues.
 
-use crate::base::lanes::vectorized;
-use crate::base::linear::dot;
+use crate::base::{dot, vectorized};
 
 /// A dense block: its unknowns, and the number of them, from the first on, that are eliminated.
 #[derive(Debug, Clone)]

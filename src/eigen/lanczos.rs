@@ -4,9 +4,8 @@
 //! an R161 take 10 to 12 steps, the first 10 take 17 to 19. Keeping every basis vector is then cheap, and none of
 //! Lanczos' spurious copies appear.
 
-use crate::base::error::{Error, Result};
-use crate::base::linear::{dot, dots};
-use crate::base::real::Real;
+use crate::base::linear::dots;
+use crate::base::{Error, Real, Result, dot};
 use crate::eigen::tridiagonal::Tridiagonal;
 
 /// The iteration and its memory, which the next run reuses.

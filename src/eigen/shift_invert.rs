@@ -2,8 +2,7 @@
 
 use nalgebra_sparse::CscMatrix;
 
-use crate::base::error::{Error, Result};
-use crate::base::linear::dot;
+use crate::base::{Error, Result, dot};
 use crate::eigen::factor::{Factor, INDEFINITE};
 use crate::eigen::lanczos::{self, Ritz};
 

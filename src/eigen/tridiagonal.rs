@@ -1,6 +1,6 @@
 //! Eigenpairs of a small symmetric tridiagonal matrix.
 
-use crate::base::real::Real;
+use crate::base::Real;
 
 /// The eigenpairs and their memory, which the next problem reuses.
 #[derive(Debug, Clone, Default)]

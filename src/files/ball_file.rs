@@ -6,11 +6,10 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 
-use crate::base::error::Result;
-use crate::base::mistakes::{self, Mistakes};
-use crate::base::units::Quantity;
-use crate::collision::ball::{Ball, LawOf, restitution};
+use crate::base::{Mistakes, Quantity, Result, mistakes};
+use crate::collision::ball::restitution;
 use crate::collision::contact::power_law;
+use crate::collision::{Ball, LawOf};
 use crate::files::document::Document;
 use crate::files::json_node::{Node, Object};
 

@@ -1,7 +1,7 @@
 //! Which ball is meant: a built-in one, or one of a file?
 
-use crate::base::error::{Complaint, Error, Result, nearest};
-use crate::collision::ball::Ball;
+use crate::base::{Complaint, Error, Result, nearest};
+use crate::collision::Ball;
 use crate::files::ball_file;
 use crate::files::folder::Folder;
 

@@ -4,14 +4,9 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
-use crate::base::error::{Complaint, Error, Result};
-use crate::base::mistakes::{self, Mistakes};
-use crate::base::units::{self, Quantity};
-use crate::bat::body::Bat;
-use crate::bat::formula::Formula;
-use crate::bat::material::{Material, UNTOLD_DENSITY, UNTOLD_MODULUS};
-use crate::bat::profile::{FormulaPiece, Interpolation, Profile};
-use crate::bat::weighed::Weighed;
+use crate::base::{Complaint, Error, Mistakes, Quantity, Result, mistakes, units};
+use crate::bat::material::{UNTOLD_DENSITY, UNTOLD_MODULUS};
+use crate::bat::{Bat, Formula, FormulaPiece, Interpolation, Material, Profile, Weighed};
 use crate::files::document::Document;
 use crate::files::edits_file;
 use crate::files::fixtures_file;

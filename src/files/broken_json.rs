@@ -2,7 +2,7 @@
 
 use serde::de::IgnoredAny;
 
-use crate::base::error::{Complaint, Error, shortened};
+use crate::base::{Complaint, Error, shortened};
 use crate::files::document::Document;
 
 /// The error for text that does not begin like a JSON object.

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use crate::base::error::{Complaint, Error, Result};
-use crate::bat::body::Bat;
+use crate::base::{Complaint, Error, Result};
+use crate::bat::Bat;
 
 /// Name and text of the JSON files in a folder, relative to the calling file; names are those of the files without
 /// their ending.

@@ -2,9 +2,7 @@
 
 use std::ops::Range;
 
-use crate::base::error::{Complaint, Error, Result};
-use crate::base::mistakes::{self, Mistakes};
-use crate::base::units::Quantity;
+use crate::base::{Complaint, Error, Mistakes, Quantity, Result, mistakes};
 use crate::files::document::Document;
 use crate::files::sheet::{self, Sheet, SheetRow};
 
@@ -84,10 +82,10 @@ impl Csv {
 }
 
 /// Key, factor to SI and unit of a column.
-type Scale = (&'static str, f64, String);
+type ColumnScale = (&'static str, f64, String);
 
 /// Key, factor to SI and unit of every column.
-fn scales(sheet: &Sheet, columns: &[(&'static str, Quantity, f64)]) -> Result<Vec<Scale>> {
+fn scales(sheet: &Sheet, columns: &[(&'static str, Quantity, f64)]) -> Result<Vec<ColumnScale>> {
     /// Number of columns that are checked. There are fewer keys, so a longer header has a mistake among the first ones.
     const LOOKED_AT: usize = 100;
     let mut seen = Vec::new();
@@ -107,7 +105,7 @@ fn scales(sheet: &Sheet, columns: &[(&'static str, Quantity, f64)]) -> Result<Ve
 fn read_row(
     sheet: &Sheet,
     row: &SheetRow,
-    scales: &[Scale],
+    scales: &[ColumnScale],
     columns: &mut [(&'static str, Vec<f64>)],
 ) -> Result<()> {
     let mut mistakes = Mistakes::default();
@@ -138,7 +136,7 @@ fn names_it(name: &str, key: &str) -> bool {
 fn column(
     written: &str,
     columns: &[(&'static str, Quantity, f64)],
-) -> std::result::Result<Scale, Complaint> {
+) -> std::result::Result<ColumnScale, Complaint> {
     let name = sheet::normal(written);
     // Longer keys first, so that a shorter one is not found in them.
     let known = columns.iter().filter(|(key, ..)| names_it(&name, key));

@@ -4,8 +4,7 @@ use std::cell::Cell;
 use std::ops::Range;
 use std::path::Path;
 
-use crate::base::error::{Complaint, Error, Excerpt, FilePosition, Result};
-use crate::base::file;
+use crate::base::{Complaint, Error, Excerpt, FilePosition, Result, file};
 
 /// The text of an input file, without a byte-order mark.
 #[derive(Debug)]

@@ -1,11 +1,8 @@
 //! How are edits, the changes of a bat after it was weighed, written in a file?
 
-use crate::base::error::Result;
-use crate::base::mistakes::{self, Mistakes};
-use crate::base::units::Quantity;
-use crate::bat::edit::{Bore, Change, Cork, Cup, Cut, Edit, ScaleDiameter, Shorten, Sleeve};
-use crate::bat::material::Material;
+use crate::base::{Mistakes, Quantity, Result, mistakes};
 use crate::bat::part::Part;
+use crate::bat::{Bore, Change, Cork, Cup, Cut, Edit, Material, ScaleDiameter, Shorten, Sleeve};
 use crate::files::json_node::{Node, Object};
 use crate::files::part_file;
 

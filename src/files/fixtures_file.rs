@@ -1,12 +1,8 @@
 //! How are fixtures, supports and measured values of a bat written in a file?
 
-use crate::base::error::Result;
-use crate::base::mistakes::{self, Mistakes};
-use crate::bat::fixtures::{Fixtures, Held, Region, Support};
-use crate::bat::layup::Layup;
-use crate::bat::material::Material;
+use crate::base::{Mistakes, Result, mistakes};
 use crate::bat::part::Part;
-use crate::bat::weighed::Weighed;
+use crate::bat::{Fixtures, Held, Layup, Material, Region, Support, Weighed};
 use crate::files::json_node::Object;
 use crate::files::part_file;
 

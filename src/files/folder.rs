@@ -8,8 +8,8 @@ use std::cell::RefCell;
 use std::fs;
 use std::path::{Component, Path, PathBuf};
 
-use crate::base::error::{Complaint, Error, Excerpt, FilePosition, Result};
 use crate::base::file::read_plain;
+use crate::base::{Complaint, Error, Excerpt, FilePosition, Result};
 use crate::files::document::Document;
 use crate::files::sheet;
 

@@ -5,9 +5,7 @@
 
 use std::path::Path;
 
-use crate::base::error::{Complaint, Result};
-use crate::base::mistakes;
-use crate::base::units::Quantity;
+use crate::base::{Complaint, Quantity, Result, mistakes};
 use crate::files::csv_file::Csv;
 use crate::files::document::Document;
 use crate::motion::force::ForceHistory;

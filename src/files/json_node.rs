@@ -11,9 +11,9 @@ use serde::de::{Deserialize, Deserializer, MapAccess, Visitor};
 use serde_json::Value;
 use serde_json::value::RawValue;
 
-use crate::base::error::{Complaint, Error, FilePosition, Result, nearest, shortened};
-use crate::base::mistakes::{self, Mistakes};
-use crate::base::units::{self, Quantity};
+use crate::base::{
+    Complaint, Error, FilePosition, Mistakes, Quantity, Result, mistakes, nearest, shortened, units,
+};
 use crate::files::broken_json;
 use crate::files::document::Document;
 

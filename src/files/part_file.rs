@@ -1,11 +1,8 @@
 //! How is a material or a fixture written in a file? Reading follows its list of members.
 
-use crate::base::error::{Error, Result};
-use crate::base::mistakes::{self, Mistakes};
-use crate::bat::fixtures::Held;
-use crate::bat::layup::Layer;
-use crate::bat::material::{BUILT_IN, Material, PoissonRatios, ShearModuli};
+use crate::base::{Error, Mistakes, Result, mistakes};
 use crate::bat::part::{Field, Instead, MemberKind, Part, Slot};
+use crate::bat::{BUILT_IN, Held, Layer, Material, PoissonRatios, ShearModuli};
 use crate::files::json_node::{Node, Object};
 
 /// The names of the kinds of supports.

@@ -2,13 +2,10 @@
 
 use serde_json::{Map, Value};
 
-use crate::base::error::Result;
-use crate::base::mistakes::Mistakes;
-use crate::base::units::Quantity;
-use crate::collision::ball::Ball;
-use crate::collision::hit::Model;
+use crate::base::{Mistakes, Quantity, Result};
 use crate::collision::setup::Setup;
 use crate::collision::wall_choice::WallChoice;
+use crate::collision::{Ball, Model};
 use crate::files::ball_file::e0;
 use crate::files::document::Document;
 use crate::files::json_node::Node;

@@ -7,11 +7,7 @@
 
 use std::ops::Range;
 
-use crate::base::error::{Complaint, Error, Result};
-use crate::base::marks;
-use crate::base::mistakes;
-use crate::base::typed;
-use crate::base::units::{self, Quantity};
+use crate::base::{Complaint, Error, Quantity, Result, marks, mistakes, typed, units};
 use crate::files::document::Document;
 use crate::files::sheet_number::{self, Decimal};
 

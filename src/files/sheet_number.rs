@@ -1,7 +1,6 @@
 //! Which number is in a cell of a table, and which decimal sign does it use?
 
-use crate::base::error::Complaint;
-use crate::base::typed;
+use crate::base::{Complaint, typed};
 
 /// The decimal sign.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,10 +1,7 @@
 //! Columns of stations as a user wrote them, in a bat file or a CSV file, each value with its place.
 
-use crate::base::error::{Complaint, Error, Result};
-use crate::base::mistakes::{self, Mistakes};
-use crate::base::typed;
-use crate::base::units::Quantity;
-use crate::bat::profile::{Interpolation, Stations};
+use crate::base::{Complaint, Error, Mistakes, Quantity, Result, mistakes, typed};
+use crate::bat::{Interpolation, Stations};
 use crate::files::csv_file::Csv;
 use crate::files::document::Document;
 use crate::files::json_node::{Node, Object};
@@ -16,21 +13,21 @@ const OUTER: [&str; 2] = [COLUMNS[1], COLUMNS[2]];
 const INNER: [&str; 3] = [COLUMNS[3], COLUMNS[4], COLUMNS[5]];
 
 /// One column: its key and its values in metres.
-struct Column {
+struct StationColumn {
     key: &'static str,
     values: Vec<f64>,
 }
 
 /// The columns of a profile and the place of each value.
 pub(crate) struct StationTable<'a> {
-    x: Column,
-    outer: Column,
-    inner: Option<Column>,
-    places: Places<'a>,
+    x: StationColumn,
+    outer: StationColumn,
+    inner: Option<StationColumn>,
+    places: ValuePlaces<'a>,
 }
 
 /// The places of the values: members of a JSON object, or cells of a CSV file.
-enum Places<'a> {
+enum ValuePlaces<'a> {
     Json(Object<'a>),
     Csv { document: Document, csv: Csv },
 }
@@ -38,8 +35,8 @@ enum Places<'a> {
 impl<'a> StationTable<'a> {
     /// The columns of a `profile` object; bare numbers are in the unit with that name and factor to m.
     pub fn from_json(object: Object<'a>, unit: (&str, f64)) -> Result<Self> {
-        let column = |key: &'static str, node: &Node| -> Result<Column> {
-            Ok(Column { key, values: node.quantities(Quantity::Length, unit)? })
+        let column = |key: &'static str, node: &Node| -> Result<StationColumn> {
+            Ok(StationColumn { key, values: node.quantities(Quantity::Length, unit)? })
         };
         let mut mistakes = Mistakes::default();
         let x = object.require("x", "\"x\": the positions of the stations");
@@ -66,7 +63,7 @@ impl<'a> StationTable<'a> {
             }
         }
         mistakes.end(())?;
-        Ok(Self { x, outer, inner, places: Places::Json(object) })
+        Ok(Self { x, outer, inner, places: ValuePlaces::Json(object) })
     }
 
     /// The columns of a CSV file. Its header gives their names and units (`x_in,diameter_in`); a column without a unit
@@ -85,7 +82,7 @@ impl<'a> StationTable<'a> {
         }
         let take = |keys: &[&'static str]| {
             let key = keys.iter().find(|key| csv.column(key).is_some())?;
-            Some(Column { key, values: csv.column(key)?.to_vec() })
+            Some(StationColumn { key, values: csv.column(key)?.to_vec() })
         };
         let (Some(x), Some(outer)) = (take(&["x"]), take(&OUTER)) else {
             return header(
@@ -94,7 +91,7 @@ impl<'a> StationTable<'a> {
             );
         };
         let inner = take(&INNER);
-        Ok(StationTable { x, outer, inner, places: Places::Csv { document, csv } })
+        Ok(StationTable { x, outer, inner, places: ValuePlaces::Csv { document, csv } })
     }
 
     /// Every column by its key (m).
@@ -105,7 +102,7 @@ impl<'a> StationTable<'a> {
 
     /// Radii from the columns that the table has.
     pub fn stations(&self, interpolation: Interpolation) -> Result<Stations> {
-        let half = |column: &Column, key: &str| -> Vec<f64> {
+        let half = |column: &StationColumn, key: &str| -> Vec<f64> {
             let scale = if column.key == key { 0.5 } else { 1.0 };
             column.values.iter().map(|v| v * scale).collect()
         };
@@ -166,20 +163,20 @@ impl<'a> StationTable<'a> {
         }
         complaint.expected = self.told(&complaint.expected, column);
         match &self.places {
-            Places::Json(object) => {
+            ValuePlaces::Json(object) => {
                 let list = object.get(column.key).unwrap_or(&object.node);
                 let node = index.map_or_else(|| list.clone(), |k| list.item(k));
                 complaint.field.clear();
                 node.complain(complaint)
             }
-            Places::Csv { document, csv } => {
+            ValuePlaces::Csv { document, csv } => {
                 complaint.field = column.key.to_owned();
                 csv.error(document, column.key, index, complaint)
             }
         }
     }
 
-    fn column(&self, role: &str) -> &Column {
+    fn column(&self, role: &str) -> &StationColumn {
         match (role, &self.inner) {
             ("outer", _) => &self.outer,
             ("inner", Some(inner)) => inner,
@@ -190,13 +187,13 @@ impl<'a> StationTable<'a> {
     /// The text in the file for station `k`, with its unit.
     fn written(&self, key: &str, k: usize) -> String {
         match &self.places {
-            Places::Json(object) => {
+            ValuePlaces::Json(object) => {
                 let Some(list) = object.get(key) else { return String::new() };
                 let shown = list.item(k).shown();
                 let unit = object.string("unit").ok().flatten().unwrap_or_else(|| "m".to_owned());
                 if shown.starts_with('"') { shown } else { format!("{shown} {unit}") }
             }
-            Places::Csv { document, csv } => {
+            ValuePlaces::Csv { document, csv } => {
                 let (at, unit) = csv.cell(key, k);
                 format!("{} {unit}", &document.text[at]).trim_end().to_owned()
             }
@@ -205,7 +202,7 @@ impl<'a> StationTable<'a> {
 
     /// The words of `Profile::new` about `x[k]`, `outer[k]`, `inner[k]`, with the names and values of the file:
     /// `half of diameter[2] (2.5 in)` where a radius is compared with it.
-    fn told(&self, said: &str, of: &Column) -> String {
+    fn told(&self, said: &str, of: &StationColumn) -> String {
         let (mut told, mut rest) = (String::new(), said);
         let next = |rest: &str| {
             let roles = ["x[", "outer[", "inner["].into_iter();

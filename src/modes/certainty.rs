@@ -73,7 +73,7 @@ pub struct CertainNodes {
 
 /// A place of certain sign, or the end of a part.
 #[derive(Clone, Copy)]
-struct Side {
+struct SignedPlace {
     number: Option<usize>,
     x: f64,
     sign: f64,
@@ -143,7 +143,8 @@ impl SpanWalk<'_> {
             return;
         }
         let most: f64 = self.shares.of.iter().map(|(_, share)| share).sum();
-        let end = |place: usize| Side { number: None, x: self.doubt.places[place][0], sign: 0.0 };
+        let end =
+            |place: usize| SignedPlace { number: None, x: self.doubt.places[place][0], sign: 0.0 };
         let (mut last, mut doubtful) = (end(places.start), vec![]);
         let mut before = self.nodes.partition_point(|node| *node < last.x);
         let past = end(places.end - 1);
@@ -163,7 +164,7 @@ impl SpanWalk<'_> {
                 doubtful.push(number);
                 continue;
             }
-            let next = Side { number: Some(number), x, sign: w.signum() };
+            let next = SignedPlace { number: Some(number), x, sign: w.signum() };
             let nodes = self.nodes[before..].iter().take_while(|node| **node <= x).count();
             before += nodes;
             if plain && nodes == 1 && doubtful.is_empty() {
@@ -179,7 +180,7 @@ impl SpanWalk<'_> {
 
     /// Finds the nodes between two places of certain sign, or between one and the end of a part, when the places
     /// between have an uncertain sign.
-    fn between(&mut self, a: Side, b: Side, doubtful: &[usize]) {
+    fn between(&mut self, a: SignedPlace, b: SignedPlace, doubtful: &[usize]) {
         let [_, pins] = &self.doubt.held;
         let inside = |x: &&f64| **x >= a.x && **x <= b.x && !self.told.nodes.contains(x);
         let pinned =
@@ -213,7 +214,7 @@ impl SpanWalk<'_> {
     }
 
     /// Place where the deflection falls to its error, between a certain place and a doubtful one.
-    fn end(&self, certain: Side, doubtful: usize) -> f64 {
+    fn end(&self, certain: SignedPlace, doubtful: usize) -> f64 {
         let Some(number) = certain.number else { return certain.x };
         let ([x, w, _], [to, at, _]) = (self.doubt.places[number], self.doubt.places[doubtful]);
         let error = CERTAIN * self.doubt.error(doubtful, self.shares);
@@ -223,14 +224,15 @@ impl SpanWalk<'_> {
 
     /// Between two adjacent certain places, all zeros that were found are nodes, except two between which the
     /// deflection stays below its error. Where it only comes that close to zero, there may be two.
-    fn without_doubt(&mut self, [a, b]: [Side; 2], fixed: Vec<f64>, free: Vec<f64>) {
+    fn without_doubt(&mut self, [a, b]: [SignedPlace; 2], fixed: Vec<f64>, free: Vec<f64>) {
         let mut dips =
             self.doubt.dips.iter().filter(|dip| dip[0] >= a.x && dip[0] <= b.x).peekable();
         if free.len() < 2 && dips.peek().is_none() {
             self.told.nodes.extend(free.iter().chain(&fixed));
             return;
         }
-        let error = |side: Side| side.number.map_or(0.0, |k| self.doubt.error(k, self.shares));
+        let error =
+            |side: SignedPlace| side.number.map_or(0.0, |k| self.doubt.error(k, self.shares));
         let least = CERTAIN * error(a).max(error(b));
         let own = |x: f64| self.shape.derivatives_at(x);
         match free[..] {

@@ -130,7 +130,7 @@ pub fn is_twin(ratio: f64, count: usize) -> bool {
 
 /// Data of a mode among others: ω (rad/s), the relative error of the frequency, the modal mass.
 #[derive(Clone, Copy)]
-struct Known {
+struct KnownMode {
     omega: f64,
     error: f64,
     mass: f64,
@@ -150,7 +150,7 @@ struct SharedMotion {
 }
 
 /// The possible share of mode `other` in mode `k` if the iteration left that residual.
-fn part(all: &[Known], k: usize, other: usize, residual: f64) -> SharedMotion {
+fn part(all: &[KnownMode], k: usize, other: usize, residual: f64) -> SharedMotion {
     let (own, its) = (all[k], all[other]);
     let gap = (1.0 - (own.omega / its.omega).powi(2)).abs().max(f64::EPSILON);
     let certain = (gap - 2.0 * UNSURE * all[k.max(other)].error).max(f64::EPSILON);
@@ -172,13 +172,14 @@ fn part(all: &[Known], k: usize, other: usize, residual: f64) -> SharedMotion {
 /// apart.
 pub fn add_neighbours(modes: &mut [Mode], beyond: Option<f64>, left: &[f64], factored: bool) {
     let (mut lightest, mut worst) = (f64::INFINITY, 0.0_f64);
-    let mut all: Vec<Known> = Vec::with_capacity(modes.len() + 1);
+    let mut all: Vec<KnownMode> = Vec::with_capacity(modes.len() + 1);
     for mode in modes.iter() {
-        let known = Known { omega: mode.omega, error: mode.error.total(), mass: mode.modal_mass };
+        let known =
+            KnownMode { omega: mode.omega, error: mode.error.total(), mass: mode.modal_mass };
         (lightest, worst) = (lightest.min(known.mass), worst.max(known.error));
         all.push(known);
     }
-    all.extend(beyond.map(|omega| Known { omega, error: worst, mass: lightest }));
+    all.extend(beyond.map(|omega| KnownMode { omega, error: worst, mass: lightest }));
     let omegas: Vec<f64> = all.iter().map(|known| known.omega).collect();
     let mut errors: Vec<f64> = all.iter().map(|known| known.error).collect();
     share(&omegas, &mut errors);

@@ -8,21 +8,15 @@
 
 use std::sync::{Arc, LazyLock};
 
-use crate::base::error::Result;
-use crate::base::linear::dot;
-use crate::base::quadrature::{gauss, legendre};
-use crate::bat::body::Bat;
+use crate::base::quadrature::legendre;
+use crate::base::{Result, dot, gauss};
+use crate::bat::Bat;
 use crate::beam::attached::Spring;
-use crate::beam::changes::Depth;
-use crate::beam::degree::Elements;
 use crate::beam::element::MOST_STRAINS;
-use crate::beam::mesh::Mesh;
-use crate::beam::motion::Motion;
 use crate::beam::placed::in_grip;
-use crate::beam::rule::MOST_POINTS;
 use crate::beam::sections::losses;
 use crate::beam::sweep::Bare;
-use crate::beam::view::View;
+use crate::beam::{Depth, Elements, MOST_POINTS, Mesh, Motion, View};
 use crate::modes::mode::Shape;
 use crate::modes::pairs::{Pairs, pairs_of};
 

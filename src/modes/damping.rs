@@ -18,10 +18,9 @@ use std::fmt;
 
 use serde::Serialize;
 
-use crate::base::error::Result;
-use crate::bat::body::Bat;
-use crate::beam::degree::Elements;
-use crate::beam::rule::DEGREES;
+use crate::base::Result;
+use crate::bat::Bat;
+use crate::beam::{DEGREES, Elements};
 use crate::modes::mode::Mode;
 use crate::modes::pole::Group;
 use crate::modes::reduced::Reduced;

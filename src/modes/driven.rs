@@ -3,7 +3,7 @@
 use faer::linalg::solvers::Solve;
 use faer::{Mat, c64};
 
-use crate::base::linear::dot;
+use crate::base::dot;
 use crate::modes::reduced::Reduced;
 
 /// Strains under a force `e^{iωt}`.

@@ -8,17 +8,11 @@
 
 use std::ops::Range;
 
-use crate::base::error::Result;
-use crate::base::lanes::{Lanes, WIDTH, vectorized};
-use crate::base::real::{Over, Real};
-use crate::bat::body::Bat;
-use crate::bat::theory::Theory;
-use crate::beam::changes::Depth;
-use crate::beam::mesh::Mesh;
-use crate::beam::motion::{Known, Motion};
-use crate::beam::statics::Statics;
-use crate::beam::sweep::{Loads, Rigid};
-use crate::beam::view::View;
+use crate::base::{Lanes, Over, Real, Result, WIDTH, vectorized};
+use crate::bat::{Bat, Theory};
+use crate::beam::motion::Known;
+use crate::beam::sweep::Rigid;
+use crate::beam::{Depth, Loads, Mesh, Motion, Statics, View};
 use crate::eigen::lanczos::{Lanczos, Space, Wanted};
 
 /// Bats in the lanes of `R`, elements of degree `N − 1` with `W − 2` strains.

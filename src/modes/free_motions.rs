@@ -3,8 +3,8 @@
 use faer::linalg::solvers::Solve;
 use faer::{Mat, c64};
 
-use crate::base::error::{Error, Result};
-use crate::base::linear::{dot, solve_two};
+use crate::base::linear::solve_two;
+use crate::base::{Error, Result, dot};
 use crate::modes::pole::{FreeMotions, Group, Pole, grouped, possible};
 use crate::modes::reduced::Reduced;
 

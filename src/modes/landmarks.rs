@@ -1,9 +1,7 @@
 //! Where is a deflection zero, where is it largest, and how far may its zeros be off?
 
-use crate::base::real::{Over, Real};
-use crate::beam::motion::Motion;
-use crate::beam::rule::MOST_POINTS;
-use crate::beam::view::View;
+use crate::base::{Over, Real};
+use crate::beam::{MOST_POINTS, Motion, View};
 use crate::modes::shape::Shape;
 
 /// A motion from knob to tip in one lane, at the points of its elements.
@@ -19,8 +17,8 @@ pub struct Track<'a> {
 }
 
 /// Room for the places of one element: ξ and deflection at both ends and at the points.
-type Places = [(f64, f64); MOST_POINTS + 2];
-const NO_PLACES: Places = [(0.0, 0.0); MOST_POINTS + 2];
+type Room = [(f64, f64); MOST_POINTS + 2];
+const NO_PLACES: Room = [(0.0, 0.0); MOST_POINTS + 2];
 
 impl Track<'_> {
     /// The motion in that lane.
@@ -69,7 +67,7 @@ impl Track<'_> {
 impl Shape {
     /// Deflection at the left end, the points and the right end of element `k`, from its values at
     /// the points.
-    fn places<'r>(&self, k: usize, track: &Track, room: &'r mut Places) -> &'r mut [(f64, f64)] {
+    fn places<'r>(&self, k: usize, track: &Track, room: &'r mut Room) -> &'r mut [(f64, f64)] {
         let points = track.xi.len();
         let [left, right] = self.ends(k);
         let inner = track.samples[k * points..(k + 1) * points].iter();

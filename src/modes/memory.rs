@@ -1,6 +1,6 @@
 //! How much memory does a solve take?
 
-use crate::bat::theory::Theory;
+use crate::bat::Theory;
 use crate::modes::eigenpairs::steps_beyond;
 use crate::modes::referee::{MOST_DENSE, Solver};
 

@@ -7,9 +7,8 @@ use std::sync::Arc;
 
 use serde::Serialize;
 
-use crate::base::real::{Over, Real};
-use crate::beam::motion::Motion;
-use crate::beam::view::View;
+use crate::base::{Over, Real};
+use crate::beam::{Motion, View};
 use crate::modes::certainty::{BESIDE_CLAMP, Doubt, RESTING};
 use crate::modes::landmarks::Track;
 
@@ -86,15 +85,7 @@ impl Mode {
         let track = Track::new(view, motion, lane);
         let mut shape = Shape::in_lane(view, motion, lane, stretches);
         let (largest, change) = shape.largest(&track);
-        // The barrel end is positive; if it is held, the knob end; if both are held, the side of the peak.
-        const AT_REST: f64 = 1e-9;
-        let moving = |end: usize| track.ends[end][0].abs() > AT_REST * largest;
-        let leading = match (moving(1), moving(0)) {
-            (true, _) => track.ends[1][0],
-            (_, true) => track.ends[0][0],
-            _ => track.samples.iter().fold(0.0, |a: f64, b| if b.abs() > a.abs() { *b } else { a }),
-        };
-        let sign = if leading < 0.0 { -1.0 } else { 1.0 };
+        let sign = if leading(&track, largest) < 0.0 { -1.0 } else { 1.0 };
         let scale = sign / largest;
         let slack = motion.slack.lane(lane);
         let rest = if view.fixed.is_some() { (STILL * largest).max(2.0 * slack) } else { 0.0 };
@@ -126,10 +117,10 @@ impl Mode {
         };
         shape.scale(scale);
         let kinetic = motion.kinetic.lane(lane);
-        let off = |(w, change): (f64, f64), at: f64| (change - at * w).abs() / largest;
         let pairs = track.samples.iter().copied().zip(track.changes.iter().copied());
         let ends = track.ends.iter().map(|end| (end[0], end[1]));
-        let worst = pairs.chain(ends).map(|pair| off(pair, change)).fold(0.0, f64::max);
+        let off = |(w, changed): (f64, f64)| (changed - change * w).abs() / largest;
+        let worst = pairs.chain(ends).map(off).fold(0.0, f64::max);
         let error = ModeError {
             discretization: 0.5 * motion.defect.lane(lane).abs(),
             round_off: 0.0,
@@ -143,6 +134,18 @@ impl Mode {
         let modal_mass = kinetic * scale * scale;
         let (omega, untold) = (motion.omega.lane(lane), vec![]);
         Self { order, omega, modal_mass, nodes, untold, shape, error, doubt }
+    }
+}
+
+/// The deflection that gives a shape its sign: that of the barrel end; if it is held, of the knob end; if both are
+/// held, of the peak.
+fn leading(track: &Track, largest: f64) -> f64 {
+    const AT_REST: f64 = 1e-9;
+    let moving = |end: usize| track.ends[end][0].abs() > AT_REST * largest;
+    match (moving(1), moving(0)) {
+        (true, _) => track.ends[1][0],
+        (_, true) => track.ends[0][0],
+        _ => track.samples.iter().fold(0.0, |a: f64, b| if b.abs() > a.abs() { *b } else { a }),
     }
 }
 

@@ -3,17 +3,10 @@
 //! [`pairs_of`] takes degree and theory at run time. Code that uses [`Pairs`] is compiled once; code that steps through
 //! the strains is compiled for every degree and theory.
 
-use crate::base::error::Result;
-use crate::base::lanes::Lanes;
-use crate::bat::body::Bat;
-use crate::bat::theory::Theory;
-use crate::beam::changes::Depth;
-use crate::beam::degree::{OfDegree, of_degree};
+use crate::base::{Lanes, Result};
+use crate::bat::{Bat, Theory};
 use crate::beam::fixed::Fixed;
-use crate::beam::mesh::Mesh;
-use crate::beam::motion::Motion;
-use crate::beam::sweep::Loads;
-use crate::beam::view::View;
+use crate::beam::{Depth, Loads, Mesh, Motion, OfDegree, View, of_degree};
 use crate::eigen::lanczos::Lanczos;
 use crate::modes::eigenpairs::Eigenpairs;
 use crate::modes::referee::{self, Found, Solver};

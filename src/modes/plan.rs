@@ -38,12 +38,9 @@ use std::time::Duration;
 
 use serde::Serialize;
 
-use crate::bat::body::Bat;
-use crate::bat::profile::{Piece, Radii};
-use crate::bat::theory::Theory;
-use crate::beam::mesh::Mesh;
-use crate::beam::rule::{DEGREES, Rule};
+use crate::bat::{Bat, Piece, Radii, Theory};
 use crate::beam::sections::missed;
+use crate::beam::{DEGREES, Mesh, Rule};
 use crate::modes::stations::Stations;
 use crate::modes::survey::{MANY, Sample, Survey};
 
@@ -165,11 +162,11 @@ impl Plan {
         let survey = Survey::of(bat, wanted.theory, phase);
         let wave = survey.root_omega;
         let stations = (tolerance >= OVER).then(|| Stations::of(bat, &survey)).flatten();
-        let mut best: Option<(f64, Layout)> = None;
+        let mut best: Option<(f64, ElementLayout)> = None;
         let mut range: Option<[usize; 2]> = None;
         for degree in degrees {
             range = Some([range.map_or(degree, |[from, _]| from), degree]);
-            let mut layout = Layout::of(degree, AIM * tolerance.max(FINEST), wave, &survey);
+            let mut layout = ElementLayout::of(degree, AIM * tolerance.max(FINEST), wave, &survey);
             // A plan that would be too large is made as large as allowed: rounding up adds to it.
             while (degree - 1) * layout.count > most_unknowns
                 && layout.count > bat.profile().pieces.len()
@@ -178,7 +175,7 @@ impl Plan {
                 layout.count = layout.elements(&survey);
             }
             let (pieces, least) = (bat.profile().pieces.len(), modes.div_ceil(degree - 1));
-            let dearer = |best: &Option<(f64, Layout)>, layout: &Layout| {
+            let dearer = |best: &Option<(f64, ElementLayout)>, layout: &ElementLayout| {
                 best.as_ref().is_some_and(|(cost, _)| layout.cost(pieces, least) >= *cost)
             };
             let over = stations.as_ref().map(|stations| (layout.over(&survey, stations), stations));
@@ -271,7 +268,7 @@ fn resolved(bat: &Bat, mut mesh: Mesh, degree: usize, wanted: &Wanted) -> Mesh {
 
 /// The length of elements of one degree within a tolerance: the share of an element that a unit of `∫(ρA/EI)^¼ dx`, or
 /// of taper, takes.
-struct Layout {
+struct ElementLayout {
     degree: usize,
     phase: f64,
     taper: f64,
@@ -286,7 +283,7 @@ struct Layout {
     many: bool,
 }
 
-impl Layout {
+impl ElementLayout {
     /// Elements that end at stations.
     fn of(degree: usize, tolerance: f64, wave: f64, survey: &Survey) -> Self {
         let phase = 0.5 * wave / of_waves(degree, tolerance);

@@ -2,7 +2,7 @@
 
 use faer::c64;
 
-use crate::base::error::{Error, Result};
+use crate::base::{Error, Result};
 
 /// A free motion `e^{st}`.
 #[derive(Debug, Clone)]

@@ -4,9 +4,8 @@
 
 use std::borrow::Cow;
 
-use crate::base::error::Result;
-use crate::bat::body::Bat;
-use crate::bat::theory::Theory;
+use crate::base::Result;
+use crate::bat::{Bat, Theory};
 use crate::modes::request::Request;
 use crate::modes::theory_choice;
 use crate::modes::tuned::tuned;

@@ -20,10 +20,9 @@
 
 use faer::{Mat, Side, c64};
 
-use crate::base::error::{Error, Result};
-use crate::base::linear::dot;
-use crate::bat::body::Bat;
-use crate::beam::degree::Elements;
+use crate::base::{Error, Result, dot};
+use crate::bat::Bat;
+use crate::beam::Elements;
 use crate::modes::compliance::{Dashpot, Flexible, RigidMotion};
 use crate::modes::pole::Pole;
 

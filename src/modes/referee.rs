@@ -4,16 +4,12 @@
 
 use serde::Serialize;
 
-use crate::base::error::{Error, Result};
-use crate::bat::body::Bat;
-use crate::bat::theory::Theory;
+use crate::base::{Error, Result};
+use crate::bat::{Bat, Theory};
 use crate::beam::assembly::{Pencil, places};
-use crate::beam::changes::Depth;
 use crate::beam::element::Element;
 use crate::beam::hermite::elements;
-use crate::beam::mesh::Mesh;
-use crate::beam::motion::Motion;
-use crate::beam::statics::Statics;
+use crate::beam::{Depth, Mesh, Motion, Statics};
 use crate::eigen::dense;
 use crate::eigen::shift_invert::{self, Pairs};
 

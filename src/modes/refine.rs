@@ -4,9 +4,8 @@
 
 use std::sync::OnceLock;
 
-use crate::base::clock::Clock;
-use crate::base::error::{Error, Result};
-use crate::bat::body::Bat;
+use crate::base::{Clock, Error, Result};
+use crate::bat::Bat;
 use crate::modes::damping::damping;
 use crate::modes::plan::Plan;
 use crate::modes::referee::Solver;

@@ -1,10 +1,8 @@
 //! What is asked of a solution, and is it possible?
 
-use crate::base::error::{Error, Result};
-use crate::base::lanes::WIDTH;
-use crate::bat::body::Bat;
-use crate::bat::theory::Theory;
-use crate::beam::rule::{DEGREES, Rule};
+use crate::base::{Error, Result, WIDTH};
+use crate::bat::{Bat, Theory};
+use crate::beam::{DEGREES, Rule};
 use crate::modes::memory::Work;
 use crate::modes::plan::{Plan, Wanted};
 use crate::modes::referee::Solver;

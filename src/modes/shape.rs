@@ -4,9 +4,8 @@ use std::sync::Arc;
 
 use serde::Serialize;
 
-use crate::base::real::{Over, Real};
-use crate::beam::motion::Motion;
-use crate::beam::view::View;
+use crate::base::{Over, Real};
+use crate::beam::{Motion, View};
 
 /// A deflection along the bat, a polynomial on every element.
 #[derive(Debug, Clone, Serialize)]

@@ -15,10 +15,8 @@
 //!
 //! Lord Rayleigh, The Theory of Sound (1877), § 88: first-order changes of a period by Rayleigh's quotient.
 
-use crate::base::quadrature::gauss;
-use crate::bat::body::Bat;
-use crate::bat::material::Material;
-use crate::bat::theory::Theory;
+use crate::base::gauss;
+use crate::bat::{Bat, Material, Theory};
 use crate::modes::mode::Mode;
 
 /// Number of points on every smooth piece of shape and section, for the square of a curvature of degree 10 and a

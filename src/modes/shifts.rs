@@ -4,9 +4,7 @@
 //! quotient, shear to the compliance. With fixtures the shear force has parts that do not follow from the mode, and the
 //! bat is solved with each theory.
 
-use crate::bat::body::Bat;
-use crate::bat::material::Material;
-use crate::bat::theory::Theory;
+use crate::bat::{Bat, Material, Theory};
 use crate::modes::mode::Mode;
 use crate::modes::refine::refine;
 use crate::modes::request::Request;

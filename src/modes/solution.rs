@@ -7,10 +7,8 @@ use std::time::Duration;
 
 use serde::Serialize;
 
-use crate::bat::body::Bat;
-use crate::bat::theory::Theory;
-use crate::beam::degree::Elements;
-use crate::beam::mesh::Mesh;
+use crate::bat::{Bat, Theory};
+use crate::beam::{Elements, Mesh};
 use crate::modes::damping::Damping;
 use crate::modes::mode::Mode;
 use crate::modes::plan::Reason;

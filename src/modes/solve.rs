@@ -5,9 +5,8 @@
 
 use std::time::Duration;
 
-use crate::base::clock::Clock;
-use crate::base::error::Result;
-use crate::bat::body::Bat;
+use crate::base::{Clock, Result};
+use crate::bat::Bat;
 use crate::modes::plan::Reason;
 use crate::modes::prepared::{Prepared, prepare};
 use crate::modes::refine::refine;

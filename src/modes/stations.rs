@@ -29,8 +29,7 @@
 use std::f64::consts::PI;
 use std::ops::Range;
 
-use crate::bat::body::Bat;
-use crate::bat::profile::{Cubics, Piece, Radii, SAME_PLACE};
+use crate::bat::{Bat, Cubics, Piece, Radii, SAME_PLACE};
 use crate::modes::survey::Survey;
 
 /// A radius below this share of the widest ends a stretch: the 1/EI of both sides differ too much to be added.

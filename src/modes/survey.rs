@@ -2,9 +2,7 @@
 //!
 //! [`Survey::of`] samples a bat for [`crate::modes::plan`].
 
-use crate::bat::body::Bat;
-use crate::bat::profile::{Cubics, Piece, Radii, Section};
-use crate::bat::theory::Theory;
+use crate::bat::{Bat, Cubics, Piece, Radii, Section, Theory};
 
 /// A piece is sampled until the radius changes by at most this factor between samples.
 const SMOOTH: f64 = 1.35;

@@ -2,19 +2,9 @@
 
 use std::sync::Arc;
 
-use crate::base::clock::Clock;
-use crate::base::error::{Error, Result};
-use crate::base::lanes::WIDTH;
-use crate::base::threads;
-use crate::bat::body::Bat;
-use crate::bat::theory::Theory;
-use crate::beam::changes::Depth;
-use crate::beam::count;
-use crate::beam::mesh::Mesh;
-use crate::beam::motion::Motion;
-use crate::beam::rule::Rule;
-use crate::beam::sections;
-use crate::beam::view::View;
+use crate::base::{Clock, Error, Result, WIDTH, threads};
+use crate::bat::{Bat, Theory};
+use crate::beam::{Depth, Mesh, Motion, Rule, View, count, sections};
 use crate::eigen::lanczos::Lanczos;
 use crate::modes::certificate::{account, add_neighbours, add_round_off, is_twin, lost};
 use crate::modes::damping::Damping;

@@ -2,9 +2,10 @@
 //!
 //! [`theory`] finds the cheapest theory whose error is below the tolerance.
 
-use crate::base::error::Result;
-use crate::bat::body::Bat;
-use crate::bat::theory::Theory;
+use std::borrow::Cow;
+
+use crate::base::Result;
+use crate::bat::{Bat, Theory};
 use crate::modes::refine::refine;
 use crate::modes::request::Request;
 use crate::modes::shifts::{Shift, shifts, solved_shifts, with_typical_shear};
@@ -42,14 +43,14 @@ pub fn theory(bat: &Bat, request: &Request) -> Result<Choice> {
     // Without a mode, that of the first: a rigid bat recoils with the inertia of its sections too.
     let (asked, request) = (request.modes, &Request { modes: request.modes.max(1), ..*request });
     let known = bat.knows_shear();
-    // Shear and rotary inertia affect the fast modes most: if a few slow ones need both, all do.
+    // Shear and rotary inertia affect the fast modes most: if a slow one needs both, all do.
     if known && request.modes > FEW {
         let few = Request { modes: FEW, ..*request };
-        if costs(bat, &few)?.far_above(request.tolerance) {
+        if costs(bat, &few, FEW - 1)?.far_above(request.tolerance) {
             return Ok(Choice { theory: Theory::Timoshenko, warning: None });
         }
     }
-    let Costs { both, shear, first } = costs(bat, request)?;
+    let Costs { both, shear, first } = costs(bat, request, 0)?;
     let theory = match (both > request.tolerance, shear > request.tolerance) {
         (true, true) if known => Theory::Timoshenko,
         (true, _) => Theory::Rayleigh,
@@ -78,7 +79,7 @@ pub fn of(bat: &Bat, request: &Request) -> Result<Theory> {
     }
 }
 
-/// Number of modes that may show that every effect is needed; for a wooden bat at 1e-4 they do.
+/// The mode that may show that every effect is needed; for a wooden bat at 1e-4 it does.
 const FEW: usize = 3;
 /// A first-order estimate decides only if it is more than this many times above or below the tolerance.
 const FAR: f64 = 2.0;
@@ -113,8 +114,9 @@ impl Costs {
     }
 }
 
-/// The excess frequencies of the theories on that bat, from the plain beam's modes if these are accurate enough.
-fn costs(bat: &Bat, request: &Request) -> Result<Costs> {
+/// The excess frequencies of the theories on that bat, from the plain beam's modes if these are accurate enough: on a
+/// bat without moving fixtures those of the modes from `first` on.
+fn costs(bat: &Bat, request: &Request, first: usize) -> Result<Costs> {
     /// Relative accuracy of the shifts.
     const ROUGH: f64 = 1e-2;
     /// A smaller shift cannot be distinguished from round-off.
@@ -123,10 +125,12 @@ fn costs(bat: &Bat, request: &Request) -> Result<Costs> {
     let plain = Request { modes, tolerance: tolerance.max(ROUGH), ..Request::plain() };
     let solution = refine(bat, &plain)?;
     let known = bat.knows_shear();
-    let shearing = with_typical_shear(bat);
+    let shearing = if known { Cow::Borrowed(bat) } else { Cow::Owned(with_typical_shear(bat)) };
     let accuracy = (0.1 * tolerance).clamp(FINEST, ROUGH);
-    let found = Costs::of(&shifts(&shearing, &solution.modes, accuracy), known);
-    if !bat.fixtures().none_moving() || !found.near(tolerance) {
+    let bare = bat.fixtures().none_moving();
+    let counted = solution.modes.get(first..).filter(|_| bare).unwrap_or(&solution.modes);
+    let found = Costs::of(&shifts(&shearing, counted, accuracy), known);
+    if !bare || !found.near(tolerance) {
         return Ok(found);
     }
     let solved = solved_shifts(&shearing, modes, accuracy);

@@ -2,11 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use crate::base::error::{Error, Result};
-use crate::bat::body::Bat;
-use crate::bat::theory::Theory;
-use crate::beam::count;
-use crate::beam::mesh::Mesh;
+use crate::base::{Error, Result};
+use crate::bat::{Bat, Theory};
+use crate::beam::{Mesh, count};
 use crate::modes::pairs::pairs_of;
 use crate::modes::plan::{Plan, Wanted};
 use crate::modes::prepared::{Prepared, prepare};

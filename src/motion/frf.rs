@@ -18,10 +18,9 @@ use faer::c64;
 
 use serde::{Serialize, Serializer};
 
-use crate::base::error::{Error, Result};
-use crate::base::linear::dot;
-use crate::bat::body::Bat;
-use crate::beam::degree::Elements;
+use crate::base::{Error, Result, dot};
+use crate::bat::Bat;
+use crate::beam::Elements;
 use crate::modes::driven::{Driven, DrivenStrains, UnitForce};
 use crate::modes::prepared::{Prepared, prepare};
 use crate::modes::reduced::Reduced;
@@ -166,11 +165,8 @@ impl Frf {
     /// The deflection (m/N) under a constant force. For a free bat it is the bending alone, balanced by the bat's
     /// inertia.
     pub fn static_compliance(&self) -> f64 {
-        if self.still {
-            return 0.0;
-        }
         let [at, to] = self.points.map(|x| self.reduced.flexible.row(x));
-        dot(&at, &to) / self.reduced.flexible.energy_unit
+        if self.still { 0.0 } else { dot(&at, &to) / self.reduced.flexible.energy_unit }
     }
 
     /// The receptance (m/N) without the free rigid motions, at 0 Hz or more, with the present strains: those of the
@@ -247,10 +243,6 @@ impl Frf {
             let expected = if free { "above 0 Hz: nothing holds the bat" } else { "0 Hz or more" };
             return Err(Error::value("frequencies", format!("{f} Hz"), expected));
         }
-        if self.still {
-            let zero = |f: &f64| Sample { frequency: *f, ..Sample::default() };
-            return Ok(frequencies.iter().map(zero).collect());
-        }
         let mut probes: Vec<f64> = frequencies.to_vec();
         probes.sort_by(f64::total_cmp);
         let last = probes.len().saturating_sub(1);
@@ -280,6 +272,9 @@ impl Frf {
         }
         let driven = self.reduced.driven();
         let sample = |f: &f64| {
+            if self.still {
+                return Sample { frequency: *f, ..Sample::default() };
+            }
             let answers = self.answers(&driven, *f);
             Sample {
                 frequency: *f,

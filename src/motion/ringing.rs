@@ -13,9 +13,8 @@
 
 use faer::c64;
 
-use crate::base::error::Result;
-use crate::base::quadrature::gauss;
-use crate::bat::body::Bat;
+use crate::base::{Result, gauss};
+use crate::bat::Bat;
 use crate::modes::compliance::RigidMotion;
 use crate::modes::damping::{DampingMethod, accuracy};
 use crate::modes::mode::Shape;
@@ -48,26 +47,26 @@ pub struct Ringing {
 
 /// One mode: its time function and its deflections.
 struct ModeInTime {
-    clock: Clock,
+    clock: ModeClock,
     /// Real part of the deflections, and the imaginary part for a complex mode.
-    forms: Vec<Form>,
+    forms: Vec<Deflection>,
 }
 
-enum Clock {
+enum ModeClock {
     Oscillator(Oscillator),
     /// One of a complex pair, the one with `Im s > 0`.
     Pole(Pole),
 }
 
 /// A deflection along the bat.
-struct Form {
+struct Deflection {
     rigid: Vec<(f64, RigidMotion)>,
     bent: Option<Shape>,
     /// Displacement of the absorbers' masses relative to the bat (m).
     hung: Vec<f64>,
 }
 
-impl Form {
+impl Deflection {
     fn at(&self, x: f64) -> f64 {
         let rigid: f64 = self.rigid.iter().map(|(part, motion)| part * motion.deflection(x)).sum();
         rigid + self.bent.as_ref().map_or(0.0, |shape| shape.deflection(x))
@@ -111,8 +110,9 @@ impl Ringing {
             for motion in &reduced.flexible.rigid {
                 let clock = Oscillator { omega: 0.0, damping_ratio: 0.0, mass: motion.mass };
                 let rigid = vec![(1.0, *motion)];
-                let form = Form { rigid, bent: None, hung: vec![0.0; reduced.flexible.hung.len()] };
-                motions.push(ModeInTime { clock: Clock::Oscillator(clock), forms: vec![form] });
+                let form =
+                    Deflection { rigid, bent: None, hung: vec![0.0; reduced.flexible.hung.len()] };
+                motions.push(ModeInTime { clock: ModeClock::Oscillator(clock), forms: vec![form] });
             }
         }
         if matches!(solution.damping.kind, DampingMethod::Complex(_)) || reduced.coupled {
@@ -130,7 +130,7 @@ impl Ringing {
                 let strains = reduced.strains(k);
                 let omega = reduced.omega[k];
                 let mass = reduced.flexible.energy_unit / (omega * omega);
-                let clock = Clock::Oscillator(Oscillator { omega, damping_ratio: ratio, mass });
+                let clock = ModeClock::Oscillator(Oscillator { omega, damping_ratio: ratio, mass });
                 let forms = vec![form(&reduced, strains, vec![])];
                 motions.push(ModeInTime { clock, forms });
             }
@@ -153,7 +153,7 @@ impl Ringing {
         let mut all = vec![];
         for (motion, part) in self.motions.iter().zip(parts) {
             match &motion.clock {
-                Clock::Oscillator(oscillator) => all.push(match start {
+                ModeClock::Oscillator(oscillator) => all.push(match start {
                     Start::Blow(_) => part.re * oscillator.impulse_response(t),
                     Start::Shape(_) => oscillator.free(part.re, 0.0, t)[0],
                     Start::Force(..) => {
@@ -163,7 +163,7 @@ impl Ringing {
                         part.re * stretches.iter().fold([0.0; 2], go)[0]
                     }
                 }),
-                Clock::Pole(pole) => {
+                ModeClock::Pole(pole) => {
                     let now = match start {
                         Start::Force(..) => {
                             stretches.iter().fold(c64::new(0.0, 0.0), |state, (h, [from, to])| {
@@ -201,8 +201,8 @@ impl Ringing {
             let imaginary = motion.forms.get(1).map_or(0.0, |form| form.at(x));
             let here = c64::new(motion.forms[0].at(x), imaginary);
             match &motion.clock {
-                Clock::Oscillator(_) => here,
-                Clock::Pole(pole) => here / pole.norm,
+                ModeClock::Oscillator(_) => here,
+                ModeClock::Pole(pole) => here / pole.norm,
             }
         };
         self.motions.iter().map(part).collect()
@@ -212,14 +212,14 @@ impl Ringing {
     /// and sections are turned by the slope.
     pub fn release(&self, bat: &Bat, shape: &InitialShape) -> Start {
         let points = self.points(bat, shape);
-        let product = |form: &Form| self.product(bat, shape, &points, form);
+        let product = |form: &Deflection| self.product(bat, shape, &points, form);
         let hung = || vec![0.0; self.reduced.flexible.hung.len()];
         // The undamped modes, from which those of the damped bat follow.
-        let complex = self.motions.iter().any(|motion| matches!(motion.clock, Clock::Pole(_)));
+        let complex = self.motions.iter().any(|motion| matches!(motion.clock, ModeClock::Pole(_)));
         let (mut rigid, mut modes) = (vec![], vec![]);
         if complex {
             for motion in &self.reduced.flexible.rigid {
-                let form = Form { rigid: vec![(1.0, *motion)], bent: None, hung: hung() };
+                let form = Deflection { rigid: vec![(1.0, *motion)], bent: None, hung: hung() };
                 rigid.push(product(&form) / motion.mass);
             }
             for (k, omega) in self.reduced.omega.iter().enumerate() {
@@ -229,8 +229,8 @@ impl Ringing {
             }
         }
         let part = |motion: &ModeInTime| match &motion.clock {
-            Clock::Oscillator(o) => c64::new(product(&motion.forms[0]) / o.mass, 0.0),
-            Clock::Pole(pole) => self.reduced.share(pole, &rigid, &modes),
+            ModeClock::Oscillator(o) => c64::new(product(&motion.forms[0]) / o.mass, 0.0),
+            ModeClock::Pole(pole) => self.reduced.share(pole, &rigid, &modes),
         };
         Start::Shape(self.motions.iter().map(part).collect())
     }
@@ -255,7 +255,13 @@ impl Ringing {
     }
 
     /// `∫ρA φ w₀ dx + ∫ρI θ w₀′ dx`, and the same products for the fixtures (kg m²).
-    fn product(&self, bat: &Bat, shape: &InitialShape, points: &[[f64; 4]], form: &Form) -> f64 {
+    fn product(
+        &self,
+        bat: &Bat,
+        shape: &InitialShape,
+        points: &[[f64; 4]],
+        form: &Deflection,
+    ) -> f64 {
         let mut sum = 0.0;
         for [x, weight, w, slope] in points {
             let worth = bat.worth_at(*x);
@@ -278,9 +284,9 @@ impl Ringing {
 }
 
 /// The deflection due to strains and rigid motions.
-fn form(reduced: &Reduced, strains: &[f64], rigid: Vec<(f64, RigidMotion)>) -> Form {
+fn form(reduced: &Reduced, strains: &[f64], rigid: Vec<(f64, RigidMotion)>) -> Deflection {
     let hung = reduced.flexible.hung.iter().map(|drawn| drawn.by(strains)).collect();
-    Form { rigid, bent: Some(reduced.flexible.shape(strains)), hung }
+    Deflection { rigid, bent: Some(reduced.flexible.shape(strains)), hung }
 }
 
 /// A pole as a mode in time.
@@ -295,7 +301,7 @@ fn swinging(reduced: &Reduced, pole: Pole, bending_only: bool) -> ModeInTime {
         let rigid = pole.rigid[..kept].iter().map(of);
         let rigid = rigid.zip(reduced.flexible.rigid.iter().copied()).collect();
         match strains.iter().all(|v| *v == 0.0) {
-            true => Form { rigid, bent: None, hung: vec![0.0; reduced.flexible.hung.len()] },
+            true => Deflection { rigid, bent: None, hung: vec![0.0; reduced.flexible.hung.len()] },
             false => form(reduced, &strains, rigid),
         }
     };
@@ -304,7 +310,7 @@ fn swinging(reduced: &Reduced, pole: Pole, bending_only: bool) -> ModeInTime {
         true => vec![take(&|part| part.re)],
         false => vec![take(&|part| part.re), take(&|part| part.im)],
     };
-    ModeInTime { clock: Clock::Pole(pole), forms }
+    ModeInTime { clock: ModeClock::Pole(pole), forms }
 }
 
 #[cfg(test)]
@@ -348,7 +354,7 @@ mod tests {
         let (Start::Blow(parts) | Start::Shape(parts) | Start::Force(parts, _)) = start;
         let mut both = [vec![], vec![]];
         for (motion, part) in ringing.motions.iter().zip(parts) {
-            let Clock::Pole(pole) = &motion.clock else { panic!("no pole") };
+            let ModeClock::Pole(pole) = &motion.clock else { panic!("no pole") };
             let now = *part * (pole.s * t).exp() * if pole.s.im == 0.0 { 1.0 } else { 2.0 };
             let v: Vec<c64> = pole.rigid.iter().chain(&pole.parts).copied().collect();
             for (sum, factor) in both.iter_mut().zip([now, now * pole.s]) {

@@ -15,8 +15,8 @@ use std::f64::consts::PI;
 
 use serde::Serialize;
 
-use crate::base::error::Result;
-use crate::bat::body::Bat;
+use crate::base::Result;
+use crate::bat::Bat;
 use crate::modes::damping::damping;
 use crate::modes::mode::Mode;
 use crate::modes::solve::Solution;

@@ -1,20 +1,23 @@
 //! `sweetspot analyze BAT`: everything about a bat on one screen.
 
 use std::path::PathBuf;
+use sweetspot_report::page::accuracy;
 
 use sweetspot::base::file;
 use sweetspot::collision::columns;
 use sweetspot::{Bat, Request, Result};
-use sweetspot_report::analysis::{Analysis, Proof, Task};
+use sweetspot_report::analysis::{Analysis, Task};
 use sweetspot_report::page::content::Report;
-use sweetspot_report::parts::Input;
+use sweetspot_report::parts::{Input, Part, terminal, wrapped};
 use sweetspot_report::plot::sets;
 use sweetspot_report::report::hoop::{self, HoopFile};
 use sweetspot_report::report::json::{self, ShapePoints};
 use sweetspot_report::report::proven::{self, Proven};
 use sweetspot_report::report::sketch::{self, SketchRow};
 use sweetspot_report::report::whole::AnalysisFile;
-use sweetspot_report::report::{self, advice, aftermath, hit_json, hit_text, text, trust};
+use sweetspot_report::report::{
+    self, advice, aftermath, damped, hit_json, hit_text, tables, text, trust,
+};
 use sweetspot_report::schema::hit::HitFile;
 use sweetspot_report::schema::modes::ModesFile;
 use sweetspot_report::schema::{self, Written};
@@ -112,7 +115,7 @@ pub fn run(args: &Args) -> Result<Done> {
     }
     apart(&[("--json", &args.output.json), ("--report", &args.report)])?;
     args.solve.refuse_budget("analyze")?;
-    let (bat, text) = args.bat.read_with_text(&args.output)?;
+    let (bat, text) = args.bat.read_with_text(&args.output, true)?;
     for off in bat.balance_off().into_iter().chain(bat.swing_weight_off()) {
         args.output.warn(&format!("note: {off}"));
     }
@@ -300,23 +303,27 @@ fn everything(analysis: &Analysis, output: &OutputArgs) -> String {
     let units = output.units(bat);
     let few: Vec<_> = hits.impacts.iter().step_by(10).cloned().collect();
     let barrel = barrel.iter().map(|one| format!("\n{}", report::hoop::in_short(one, units)));
+    let mut modes = vec![Part::Table(tables::modes(bat, solution, units))];
+    modes.extend(damped::parts(solution));
+    modes.push(Part::Heading("Nodes"));
+    modes.push(Part::List(tables::nodes(bat, solution, 3, units)));
+    let why = [hit_text::reason(figures, units), hit_text::beyond(hits, &task.scene, units)];
+    let spot = hit_text::sweet_spot(bat, &figures.spot, units).into_iter();
+    let spot: Vec<Part> = spot.chain(why.into_iter().flatten().map(Part::Text)).collect();
     format!(
-        "{}\n{}\n{}\n{}{}{}{}\n{}{}\n{}\n{}\n{}{}{}\n{}\n{}{}",
+        "{}\n{}{}{}\n{}{}{}\n{}{}\n{}{}{}\n{}{}",
         text::summary(bat, units),
         output.sketch(bat, &rows(analysis)),
-        text::modes(bat, solution, 3, units).concat(),
+        terminal::parts(&modes),
         trust::text(analysis, units),
         text::model(bat, solution),
-        proof(analysis),
+        wrapped(&format!("Proof: {}", accuracy::proof(analysis)), 7),
         advice(analysis),
-        hit_text::scene(bat, &task.scene, task.model.name(), units),
-        hit_text::meaning(task.model),
-        hit_text::impacts(bat, &few, units),
+        hit_text::scene(bat, &task.scene, task.model, units),
+        terminal::parts(&hit_text::impacts(bat, &few, units)),
         hit_text::curve(&hits.impacts, units),
-        hit_text::sweet_spot(bat, &figures.spot, units),
-        hit_text::why(figures, units),
-        hit_text::beyond(hits, &task.scene, units),
-        hit_text::figures(figures, units),
+        terminal::parts(&spot),
+        terminal::parts(&[Part::Table(tables::figures(figures, units))]),
         aftermath::strengths(bat, &analysis.strength, units),
         barrel.collect::<String>(),
     )
@@ -328,17 +335,4 @@ fn advice(analysis: &Analysis) -> String {
         Some(found) => advice::short(found),
         None => "Advice: sweetspot advise has it\n".to_owned(),
     }
-}
-
-/// Accuracy of the solver on the uniform dowel, whose frequencies are known in closed form.
-fn proof(analysis: &Analysis) -> String {
-    let Proof { modes, truth, stated } = analysis.proof;
-    let here = match analysis.solution.modes.is_empty() {
-        true => String::new(),
-        false => format!("; on this bat it states {:.1e}", analysis.solution.worst()),
-    };
-    format!(
-        "Proof: on the uniform dowel the solver finds the exact modes 1 to {modes} within\n       \
-         {truth:.1e} and states {stated:.1e}{here}\n"
-    )
 }

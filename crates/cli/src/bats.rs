@@ -25,6 +25,6 @@ const COLUMNS: [Column<(&str, Bat)>; 2] = [
 pub fn run(_: &Args) -> Result<Done> {
     let named = bat_names().into_iter().map(|name| Ok((name, Bat::builtin(name)?)));
     let bats: Vec<_> = named.collect::<Result<_>>()?;
-    let table = Part::Table(Table::of("Built-in bats", &COLUMNS, &bats, Units::Si));
+    let table = Part::Table(Table::of("", &COLUMNS, &bats, Units::Si));
     Ok(Done::new(style::table(&terminal::text("Built-in bats", &[table])), 0))
 }

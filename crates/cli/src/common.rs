@@ -98,9 +98,9 @@ impl BatArgs {
     }
 
     /// Reads the bat, passes on the warnings that the verb's screen does not tell, and returns the text of its file too.
-    pub fn read_with_text(&self, output: &OutputArgs) -> Result<(Bat, String)> {
-        let screen = output.json.as_deref() != Some(Path::new("-"));
-        read_with_text(&self.bat, &self.edits, output.quiet, screen)
+    pub fn read_with_text(&self, output: &OutputArgs, screen: bool) -> Result<(Bat, String)> {
+        let screen = screen && output.json.as_deref() != Some(Path::new("-"));
+        read_with_text(&self.bat, &self.edits, [output.quiet, screen])
     }
 
     /// Finds the modes of a bat that was read.
@@ -269,7 +269,7 @@ impl SolveArgs {
 
 /// Reads a bat, edits it and passes its warnings on.
 pub fn read(path: &Path, edits: &EditArgs, quiet: bool) -> Result<Bat> {
-    read_with_text(path, edits, quiet, false).map(|(bat, _)| bat)
+    read_with_text(path, edits, [quiet, false]).map(|(bat, _)| bat)
 }
 
 /// Reads a bat, edits it and reports its warnings; also returns the text of its file. A name without an ending is that
@@ -277,8 +277,7 @@ pub fn read(path: &Path, edits: &EditArgs, quiet: bool) -> Result<Bat> {
 pub fn read_with_text(
     path: &Path,
     edits: &EditArgs,
-    quiet: bool,
-    screen: bool,
+    [quiet, screen]: [bool; 2],
 ) -> Result<(Bat, String)> {
     let Named { bat, text, outside } = match built_in::named(path)? {
         Some((name, text)) => {

@@ -7,10 +7,10 @@ use sweetspot::collision::{Hitter, Sweep};
 use sweetspot::modes::solve::Ending;
 use sweetspot::{Bat, Error, Result};
 use sweetspot_report::csv;
-use sweetspot_report::parts::wrapped;
+use sweetspot_report::parts::{Part, terminal, wrapped};
 use sweetspot_report::plot::profile;
 use sweetspot_report::plot::sets::Hits;
-use sweetspot_report::report::{hit_json, hit_text, sketch, trust};
+use sweetspot_report::report::{hit_json, hit_text, sketch, tables, trust};
 use sweetspot_report::schema::hit::HitFile;
 use sweetspot_study::verdict::Verdict;
 
@@ -94,10 +94,7 @@ impl PlaceArgs {
 
 pub fn run(args: &Args) -> Result<Done> {
     args.output.apart(&[])?;
-    let bat = match &args.output.csv.csv {
-        None => args.bat.read_with_text(&args.output)?.0,
-        Some(_) => args.bat.read(&args.output)?,
-    };
+    let (bat, _) = args.bat.read_with_text(&args.output, args.output.csv.csv.is_none())?;
     let (setup, model) = args.scene.setup()?;
     args.solve.refuse_budget("hit")?;
     let prepared = args.bat.prepare(bat, args.bat.count(), &args.solve, &args.output)?;
@@ -141,25 +138,28 @@ fn table(args: &Args, bat: &Bat, trial: Trial, sweep: &Sweep, figures: &Figures)
     let known = Verdict::of((bat, scene), sweep, figures.best.as_ref(), figures.wall);
     let doubts = trust::doubts(&known, units);
     let doubts: String = doubts.iter().map(|doubt| wrapped(doubt, 0)).collect();
-    let above = hit_text::scene(bat, scene, model.name(), units) + &hit_text::meaning(model);
+    let above = hit_text::scene(bat, scene, model, units);
     let most = if args.place.points.is_some() { usize::MAX } else { MANY };
     args.output.screen(most, |full| {
         let best = figures.spot.exit_speed_max.map(|peak| peak.x);
         let shown = match full || args.place.asked() {
-            true => hit_text::impacts(bat, &sweep.impacts, units),
-            false => hit_text::impacts(bat, &hit_text::some(&sweep.impacts, best), units),
+            true => &sweep.impacts,
+            false => &hit_text::some(&sweep.impacts, best),
         };
+        let shown = terminal::parts(&hit_text::impacts(bat, shown, units));
         let [mut sketch, mut more] = [const { String::new() }; 2];
         if full {
-            sketch = args.output.sketch(bat, &sketch::of_hit(bat, &figures.spot)) + "\n";
-            let moves = hit_text::moves(bat, figures, units);
-            more = format!("\n{}\n{moves}", hit_text::figures(figures, units));
+            sketch = format!("\n{}", args.output.sketch(bat, &sketch::of_hit(bat, &figures.spot)));
+            let tables = [tables::figures(figures, units), tables::moves(bat, figures, units)];
+            more = terminal::parts(&tables.map(Part::Table));
         }
-        let spot = hit_text::sweet_spot(bat, &figures.spot, units);
+        let spot = terminal::parts(&hit_text::sweet_spot(bat, &figures.spot, units));
+        let why = [hit_text::reason(figures, units), hit_text::beyond(sweep, scene, units)];
+        let [why, beyond] = why.map(|text| text.map_or(String::new(), |text| wrapped(&text, 0)));
         [
-            (0, "", format!("{above}\n{shown}\n{sketch}{spot}")),
-            (2, "why there", hit_text::why(figures, units)),
-            (3, "modes left out", hit_text::beyond(sweep, scene, units)),
+            (0, "", format!("{above}{shown}{sketch}{spot}")),
+            (2, "why there", why),
+            (3, "modes left out", beyond),
             (1, "trust", doubts.clone() + trust::IN_ANALYZE),
             (0, "", more),
         ]

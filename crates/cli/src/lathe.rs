@@ -103,9 +103,14 @@ pub fn run(args: &Args) -> Result<Done> {
     let hit = HitTerms { scene, model, exactly: args.bat.asked() };
     let progress = args.output.progress("lathe");
     progress.say(0.0, "the sweet spot");
+    // Outputs, a depth or a stretch imply the tables.
+    let asked = args.outputs.is_some()
+        || args.depth.is_some()
+        || args.bands.iter().any(|band| matches!(band, BandArg::Stretch(_)));
     let answers = match &args.outputs {
         Some(asked) => asked.clone(),
-        None => answers(&bat, &request, &hit, at)?,
+        None if asked || args.output.in_full() => answers(&bat, &request, &hit, at)?,
+        None => LatheMap::ON_A_SCREEN.to_vec(),
     };
     let exponent = law.map_or(0.0, |law| law.exponent);
     let terms = LatheTerms { bands, cut, exponent, answers };
@@ -113,10 +118,6 @@ pub fn run(args: &Args) -> Result<Done> {
     let map = LatheMap::new(&bat, &request, Some(&hit), terms)?;
     drop(progress);
     let units = args.output.units(map.piece.bat());
-    // Outputs, a depth or a stretch imply the tables.
-    let asked = args.outputs.is_some()
-        || args.depth.is_some()
-        || args.bands.iter().any(|band| matches!(band, BandArg::Stretch(_)));
     let screen = report::screen(&map, &hit.scene, units).filter(|_| !asked);
     let table = args.output.screen(MANY, |full| match screen.clone().filter(|_| !full) {
         Some(screen) => Screen::from(screen),

@@ -1,6 +1,7 @@
 //! `sweetspot modes BAT`: natural frequencies, shapes, nodes.
 
 use std::path::{Path, PathBuf};
+use sweetspot_report::parts::{Part, terminal};
 
 use sweetspot::base::file;
 use sweetspot::beam::assembly::{Pencil, write_matrix_market};
@@ -9,7 +10,7 @@ use sweetspot_report::csv;
 use sweetspot_report::exchange::npz;
 use sweetspot_report::plot::sets;
 use sweetspot_report::report::json::{self, ShapePoints};
-use sweetspot_report::report::{proven, sketch, text, trust};
+use sweetspot_report::report::{damped, proven, sketch, tables, text, trust};
 
 use crate::common::{BatArgs, SolveArgs, Solved, examples};
 use crate::done::Done;
@@ -70,10 +71,14 @@ pub fn run(args: &Args) -> Result<Done> {
     let trust = trust::of_wood(&bat);
     let table = args.output.screen(MANY, |full| {
         let shown = if full { solution.modes.len() } else { FIRST_NODES };
-        let [modes, damping, nodes] = text::modes(&bat, &solution, shown, units);
+        let modes = Part::Table(tables::modes(&bat, &solution, units));
+        let nodes = tables::nodes(&bat, &solution, shown, units);
+        let nodes = [Part::Heading("Nodes"), Part::List(nodes)];
+        let [modes, damping, nodes] =
+            [&[modes][..], &damped::parts(&solution), &nodes].map(terminal::parts);
         if !full {
             return Screen::from([
-                (0, "", format!("{summary}\n")),
+                (0, "", summary.clone()),
                 (2, "modes", modes),
                 (3, "damping", damping),
                 (4, "nodes", nodes),
@@ -84,7 +89,7 @@ pub fn run(args: &Args) -> Result<Done> {
         let sketch = args.output.sketch(&bat, &sketch::of_modes(&bat, &solution));
         let model = text::model(&bat, &solution);
         let modes = modes + &damping + &nodes + &proof;
-        format!("{summary}\n{sketch}\n{modes}\n{model}{trust}").into()
+        format!("{summary}\n{sketch}{modes}\n{model}{trust}").into()
     });
     let document = || {
         let mut document = json::modes(&bat, &solution, args.shape_points, !args.reproducible);

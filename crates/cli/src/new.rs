@@ -77,7 +77,7 @@ fn shown(bat: &Bat, measured: &Measured, path: &Path) -> String {
             places: Places::Points(vec![bat.inertia().balance_point]),
         },
     ];
-    let units = if measured.unit == "in" { Units::Us } else { Units::Si };
+    let units = Units::one(measured.unit == "in");
     let [name, page] = [path, &path.with_extension("html")].map(quoted);
     let above = format!(
         "{}{}\n{}\nWrote {name}. Next:\n  sweetspot analyze {name} --report {page}\n\n",

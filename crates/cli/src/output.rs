@@ -130,6 +130,11 @@ impl AnswerArgs {
         apart(&[&[("--json", &self.json), ("--csv", &self.csv.csv)], others].concat())
     }
 
+    /// Whether more than one screen is asked for.
+    pub fn in_full(&self) -> bool {
+        self.full || [&self.json, &self.csv.csv, &self.plots].iter().any(|asked| asked.is_some())
+    }
+
     /// Draws, and writes JSON and CSV, as far as that was asked for; returns the text for standard output.
     pub fn answer<D: Serialize, P: IntoIterator<Item = Picture>>(
         &self,

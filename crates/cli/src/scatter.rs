@@ -71,8 +71,8 @@ pub fn run(args: &Args) -> Result<Done> {
     let said = match said {
         Some(said) => said,
         None => scatter_file::of_wood(&bat).ok_or_else(|| {
-            let expected = "a scatter file that says what differs, such as bats.json: how much pieces of \
-                            what this bat is made of differ is not known here";
+            let expected = "a scatter file that says what differs, such as bats.json: only the scatter of wood \
+                            is used without one";
             Error::value("SCATTER", "none", expected)
         })?,
     };

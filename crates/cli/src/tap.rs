@@ -119,7 +119,7 @@ pub fn run(args: &Args) -> Result<Done> {
         ("--readings", &args.readings),
     ];
     apart(&written)?;
-    let (bat, text) = read_with_text(&args.bat, &EditArgs::default(), args.said.quiet, false)?;
+    let (bat, text) = read_with_text(&args.bat, &EditArgs::default(), [args.said.quiet, false])?;
     let part = part(args)?;
     let recordings = args.recordings.iter().map(|path| read(path, part));
     let recordings = recordings.collect::<Result<Vec<_>>>()?;

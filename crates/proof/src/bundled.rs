@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use sweetspot::base::error::{Error, Result};
-use sweetspot::bat::body::Bat;
+use sweetspot::base::{Error, Result};
+use sweetspot::bat::Bat;
 use sweetspot::files::built_in::bat_text;
 use sweetspot::json_files;
 

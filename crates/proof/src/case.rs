@@ -9,9 +9,8 @@ use serde_json::Value;
 
 use crate::bundled::{bundled_bat, text};
 use crate::known_hits::{KnownFigure, Throw};
-use sweetspot::base::error::{Error, Result};
-use sweetspot::bat::body::Bat;
-use sweetspot::bat::theory::Theory;
+use sweetspot::base::{Error, Result};
+use sweetspot::bat::{Bat, Theory};
 use sweetspot::files::schema::bat::BatFile;
 use sweetspot::files::schema::document::{Document, Format};
 use sweetspot::modes::solve::Request;

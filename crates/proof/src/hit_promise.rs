@@ -18,14 +18,11 @@ use serde::Deserialize;
 use serde_json::Value;
 
 use crate::promise::{ALWAYS, MOSTLY, VISIBLE};
-use sweetspot::base::error::{Error, Result};
-use sweetspot::base::telling::Tell;
-use sweetspot::base::threads;
-use sweetspot::bat::body::Bat;
-use sweetspot::bat::theory::Theory;
-use sweetspot::collision::ball::Ball;
-use sweetspot::collision::hit::{Model, Scene, Wall};
+use sweetspot::base::{Error, Result, Tell, threads};
+use sweetspot::bat::{Bat, Theory};
+use sweetspot::collision::hit::Wall;
 use sweetspot::collision::sweep::{Trial, sweep};
+use sweetspot::collision::{Ball, Model, Scene};
 use sweetspot::modes::solve::Request;
 
 /// The path of the hits in the project.
@@ -36,16 +33,16 @@ const TEXT: &str = include_str!("../../../validation/hits/hits.json");
 /// Bats and their hits (SI).
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Drawn {
+struct DrawnHits {
     #[serde(rename = "source")]
     _source: String,
     bats: Vec<Value>,
-    hits: Vec<Hit>,
+    hits: Vec<DrawnHit>,
 }
 
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Hit {
+struct DrawnHit {
     bat: usize,
     theory: String,
     x: f64,
@@ -186,7 +183,7 @@ impl Summary {
 /// [`Error::Input`] for a file that contains no hits, and as [`sweep`].
 pub fn rows(tell: Tell) -> Result<Vec<CheckedHit>> {
     tell(0.0, "random hits");
-    let drawn: Drawn = serde_json::from_str(TEXT).map_err(|error| {
+    let drawn: DrawnHits = serde_json::from_str(TEXT).map_err(|error| {
         Error::value(FILE, error.to_string(), "hits as search/hits writes them")
     })?;
     let read = |bat: &Value| Bat::from_text(FILE, &bat.to_string(), Path::new(""));
@@ -195,7 +192,7 @@ pub fn rows(tell: Tell) -> Result<Vec<CheckedHit>> {
     threads::map(drawn.hits.len(), checked).into_iter().collect()
 }
 
-fn row(number: usize, bat: &Bat, hit: &Hit) -> Result<CheckedHit> {
+fn row(number: usize, bat: &Bat, hit: &DrawnHit) -> Result<CheckedHit> {
     let scene = hit.scene();
     let trial = Trial { model: Model::Contact, scene: &scene };
     let accuracy = trial.accuracy(&hit.request()?, hit.modes.is_some());
@@ -221,7 +218,7 @@ fn row(number: usize, bat: &Bat, hit: &Hit) -> Result<CheckedHit> {
     })
 }
 
-impl Hit {
+impl DrawnHit {
     fn scene(&self) -> Scene {
         let ball = Ball {
             mass_kg: self.mass,

@@ -11,16 +11,10 @@
 use std::f64::consts::TAU;
 
 use crate::promise::ALWAYS;
-use sweetspot::base::error::Result;
-use sweetspot::base::golden;
-use sweetspot::base::telling::Tell;
-use sweetspot::base::threads;
-use sweetspot::bat::body::Bat;
-use sweetspot::bat::fixtures::{Fixtures, Region};
-use sweetspot::bat::formula::Formula;
-use sweetspot::bat::layup::Layup;
-use sweetspot::bat::material::Material;
-use sweetspot::bat::profile::{FormulaPiece, Interpolation, Profile, Stations};
+use sweetspot::base::{Result, Tell, golden, threads};
+use sweetspot::bat::{
+    Bat, Fixtures, Formula, FormulaPiece, Interpolation, Layup, Material, Profile, Region, Stations,
+};
 use sweetspot::modes::hoop::{Hoop, HoopRequest};
 
 /// Tolerances at which every barrel is solved.
@@ -64,11 +58,11 @@ impl CheckedHoop {
 }
 
 /// A barrel with its known frequencies (Hz) for n = 2 and 3 and their possible errors.
-struct Barrel {
+struct TestBarrel {
     name: String,
     bat: Bat,
     from: Option<f64>,
-    known: Option<([[f64; MODES]; 2], f64)>,
+    known: Option<(Frequencies, f64)>,
 }
 
 /// All published barrels and that number of random ones at all tolerances.
@@ -83,7 +77,7 @@ pub fn rows(tell: Tell, random: usize) -> Result<Vec<CheckedHoop>> {
     Ok(checked.into_iter().collect::<Result<Vec<_>>>()?.concat())
 }
 
-fn solve(barrel: &Barrel, tol: f64) -> Result<Hoop> {
+fn solve(barrel: &TestBarrel, tol: f64) -> Result<Hoop> {
     let harmonics = HARMONICS.to_vec();
     let request = HoopRequest { tol, harmonics, up_to_hz: 1.0, least: MODES, ..Default::default() };
     match barrel.from {
@@ -92,7 +86,7 @@ fn solve(barrel: &Barrel, tol: f64) -> Result<Hoop> {
     }
 }
 
-fn check(barrel: &Barrel) -> Result<Vec<CheckedHoop>> {
+fn check(barrel: &TestBarrel) -> Result<Vec<CheckedHoop>> {
     let (known, known_to) = match barrel.known {
         Some((known, known_to)) => (known.concat(), known_to),
         None => {
@@ -158,8 +152,26 @@ fn plugged(bat: &Bat, from: f64, modulus: f64) -> Result<Bat> {
     bat.with(|parts| parts.fixtures = Fixtures { regions, ..Fixtures::default() })
 }
 
-fn barrels(count: usize) -> Result<Vec<Barrel>> {
-    let named = |name: &str, bat: Bat, from, known| Barrel {
+/// Published frequencies (Hz): those of each harmonic.
+type Frequencies = [[f64; MODES]; 2];
+
+const FREE_TUBE: Frequencies = [
+    [1_451.365_952_02, 1_481.103_529_51, 2_421.683_109_93],
+    [4_085.875_031_92, 4_122.894_500_91, 4_386.431_461_54],
+];
+const THIN_TUBE: Frequencies = [
+    [218.584_634_69, 223.487_474_26, 1_822.932_988_87],
+    [618.173_945_51, 624.424_590_34, 1_097.619_441_82],
+];
+const OPEN_BARREL: Frequencies = [
+    [1_939.920_069_39, 2_132.837_659_05, 2_810.245_663_24],
+    [5_430.375_400_23, 5_553.603_500_06, 5_873.714_604_27],
+];
+const PLUGGED_BARREL: Frequencies =
+    [[2_036.593_97, 2_586.862_61, 3_379.647_15], [5_502.597_34, 5_747.838_06, 6_239.308_72]];
+
+fn barrels(count: usize) -> Result<Vec<TestBarrel>> {
+    let named = |name: &str, bat: Bat, from, known| TestBarrel {
         name: name.to_owned(),
         bat,
         from,
@@ -168,58 +180,19 @@ fn barrels(count: usize) -> Result<Vec<Barrel>> {
     let open = open_barrel()?;
     let plug = plugged(&open, 0.8262, 1e9)?;
     let mut barrels = vec![
-        named(
-            "free tube",
-            tube(0.25, 0.030, 0.002)?,
-            None,
-            (
-                [
-                    [1_451.365_952_02, 1_481.103_529_51, 2_421.683_109_93],
-                    [4_085.875_031_92, 4_122.894_500_91, 4_386.431_461_54],
-                ],
-                2e-9,
-            ),
-        ),
-        named(
-            "thin free tube",
-            tube(0.25, 0.030, 0.0003)?,
-            None,
-            (
-                [
-                    [218.584_634_69, 223.487_474_26, 1_822.932_988_87],
-                    [618.173_945_51, 624.424_590_34, 1_097.619_441_82],
-                ],
-                1e-8,
-            ),
-        ),
-        named(
-            "open barrel",
-            open,
-            Some(0.2),
-            (
-                [
-                    [1_939.920_069_39, 2_132.837_659_05, 2_810.245_663_24],
-                    [5_430.375_400_23, 5_553.603_500_06, 5_873.714_604_27],
-                ],
-                2e-9,
-            ),
-        ),
-        named(
-            "plugged barrel",
-            plug,
-            Some(0.28),
-            (
-                [
-                    [2_036.593_97, 2_586.862_61, 3_379.647_15],
-                    [5_502.597_34, 5_747.838_06, 6_239.308_72],
-                ],
-                2e-7,
-            ),
-        ),
+        named("free tube", tube(0.25, 0.030, 0.002)?, None, (FREE_TUBE, 2e-9)),
+        named("thin free tube", tube(0.25, 0.030, 0.0003)?, None, (THIN_TUBE, 1e-8)),
+        named("open barrel", open, Some(0.2), (OPEN_BARREL, 2e-9)),
+        named("plugged barrel", plug, Some(0.28), (PLUGGED_BARREL, 2e-7)),
     ];
     for k in 0..count {
         let bat = random(k)?;
-        barrels.push(Barrel { name: format!("random {}", k + 1), bat, from: None, known: None });
+        barrels.push(TestBarrel {
+            name: format!("random {}", k + 1),
+            bat,
+            from: None,
+            known: None,
+        });
     }
     Ok(barrels)
 }

@@ -7,19 +7,15 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use sweetspot::base::error::{Error, Result};
-use sweetspot::bat::body::Bat;
-use sweetspot::collision::ball::Ball;
+use sweetspot::base::{Error, Result};
+use sweetspot::bat::Bat;
 use sweetspot::collision::contact::collider::Collider;
 use sweetspot::collision::contact::collocation::{POINTS, polynomial};
-use sweetspot::collision::contact::force_law::ForceLaw;
 use sweetspot::collision::contact::power_law::PowerLaw;
-use sweetspot::collision::contact::table::Piece;
+use sweetspot::collision::contact::table::ForcePiece;
 use sweetspot::collision::contact::touch::DrivingPoint;
 use sweetspot::collision::energy_loss::EnergyLoss;
-use sweetspot::collision::hit::{Effort, Model, Outcome, Scene};
-use sweetspot::collision::hitter::Hitter;
-use sweetspot::collision::sweet_spot::SweetSpot;
+use sweetspot::collision::{Ball, Effort, ForceLaw, Hitter, Model, Outcome, Scene, SweetSpot};
 use sweetspot::modes::solve::Solution;
 
 /// A ball thrown at a free bat, or at a wall.
@@ -235,7 +231,7 @@ fn of_hit(seen: KnownFigure, outcome: &Outcome, rigid: f64) -> Option<f64> {
 }
 
 /// The time (s) at which the force has given that impulse (N s); NaN if it never does.
-fn time_of(pieces: &[Piece], impulse: f64) -> f64 {
+fn time_of(pieces: &[ForcePiece], impulse: f64) -> f64 {
     let mut left = impulse;
     for piece in pieces {
         // The integral of the force from the beginning of the piece.
@@ -264,7 +260,7 @@ mod tests {
 
     #[test]
     fn a_steady_force_gives_its_impulse_evenly() {
-        let piece = |start| Piece { start, length: 0.5, powers: [4.0, 0.0, 0.0, 0.0, 0.0] };
+        let piece = |start| ForcePiece { start, length: 0.5, powers: [4.0, 0.0, 0.0, 0.0, 0.0] };
         let pieces = [piece(0.0), piece(0.5)];
         for (impulse, time) in [(1.0, 0.25), (2.0, 0.5), (3.0, 0.75)] {
             assert!((time_of(&pieces, impulse) - time).abs() < 1e-12);

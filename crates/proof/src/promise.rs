@@ -13,8 +13,7 @@
 //! A tolerance beyond reach because of round-off breaks no promise if the answer says so.
 
 use crate::validation::Truth;
-use sweetspot::base::error::Result;
-use sweetspot::base::telling::Tell;
+use sweetspot::base::{Result, Tell};
 use sweetspot::modes::mode::Mode;
 use sweetspot::modes::solve::{Request, Solution, solve};
 

@@ -6,13 +6,10 @@
 
 use crate::enclosure::guarantee::guarantee;
 use crate::promise::ALWAYS;
-use sweetspot::base::error::Result;
-use sweetspot::base::telling::Tell;
-use sweetspot::bat::body::Bat;
-use sweetspot::bat::fixtures::{Attachment, Fixtures};
-use sweetspot::bat::material::Material;
-use sweetspot::bat::profile::{Interpolation, Profile, Stations};
-use sweetspot::bat::theory::Theory;
+use sweetspot::base::{Result, Tell};
+use sweetspot::bat::{
+    Attachment, Bat, Fixtures, Interpolation, Material, Profile, Stations, Theory,
+};
 use sweetspot::modes::mode::Mode;
 use sweetspot::modes::solve::{Request, solve};
 

@@ -7,10 +7,8 @@ use std::fmt::Write;
 use crate::bundled::CASES;
 use crate::case::{Case, Check, Known, Provenance};
 use crate::validation::{KnownNumber, run};
-use sweetspot::base::error::Result;
-use sweetspot::base::telling::Tell;
-use sweetspot::base::units::inches;
-use sweetspot::bat::theory::Theory;
+use sweetspot::base::{Result, Tell, inches};
+use sweetspot::bat::Theory;
 use sweetspot::modes::solve::{Request, solve};
 
 /// A case with its rows, one for each check.
@@ -106,7 +104,7 @@ pub fn furthest(rows: &[&KnownNumber]) -> String {
 
 /// A line of the table: a mode's frequency, or its ratio to the first one's.
 #[derive(Clone, Copy, PartialEq, Eq)]
-struct Line<'a> {
+struct TableLine<'a> {
     /// Which of several bats or meshes.
     row: Option<&'a str>,
     ratio: bool,
@@ -154,12 +152,12 @@ const HEADINGS: [&str; 9] = [
 ];
 
 /// Every mode that a case has a frequency, a ratio or a node of.
-fn lines<'a>(answers: &[&'a PublishedCase]) -> Vec<Line<'a>> {
-    let mut lines: Vec<Line> = Vec::new();
+fn lines<'a>(answers: &[&'a PublishedCase]) -> Vec<TableLine<'a>> {
+    let mut lines: Vec<TableLine> = Vec::new();
     for answer in answers {
         let ratio = answer.case.checks.iter().any(|check| check.quantity == Known::FrequencyRatio);
         for mode in answer.case.checks.iter().filter_map(|check| check.mode) {
-            let line = Line { row: row_of(answer), ratio, mode };
+            let line = TableLine { row: row_of(answer), ratio, mode };
             if !lines.contains(&line) {
                 lines.push(line);
             }
@@ -176,7 +174,7 @@ fn row_of(answer: &PublishedCase) -> Option<&str> {
 }
 
 /// A line of the table, a cell for each heading.
-fn line_of_cells(answers: &[&PublishedCase], line: &Line) -> Result<[String; 9]> {
+fn line_of_cells(answers: &[&PublishedCase], line: &TableLine) -> Result<[String; 9]> {
     let here = || answers.iter().copied().filter(|answer| row_of(answer) == line.row);
     let measured =
         here().find_map(|answer| given(answer, line, |kind, _| kind == Provenance::Measured));
@@ -232,7 +230,7 @@ fn line_of_cells(answers: &[&PublishedCase], line: &Line) -> Result<[String; 9]>
 /// The published frequency or ratio of a line, where the case's kind and theory are `wanted`.
 fn given(
     answer: &PublishedCase,
-    line: &Line,
+    line: &TableLine,
     wanted: impl Fn(Provenance, Theory) -> bool,
 ) -> Option<f64> {
     let kind = answer.case.published.as_ref()?.kind;
@@ -259,7 +257,7 @@ struct Ours {
 }
 
 /// The mode of that line by that theory, with the mesh of the case if it requests one.
-fn ours(answer: &PublishedCase, line: &Line, theory: Theory) -> Result<Option<Ours>> {
+fn ours(answer: &PublishedCase, line: &TableLine, theory: Theory) -> Result<Option<Ours>> {
     let request = Request { theory, modes: line.mode, ..answer.case.request()? };
     let modes = solve(&answer.case.bat()?, &request)?.modes;
     let (Some(first), Some(mode)) = (modes.first(), modes.last()) else { return Ok(None) };

@@ -126,8 +126,8 @@ impl Analysis {
         tell(0.9, "what the model needs");
         let mut failed = vec![];
         let advice = found(advice(&bat, task.hits.tolerance), "what the model needs", &mut failed);
-        let barrel =
-            found(barrel(&bat, &task, accuracy, &hits), "how the barrel rings", &mut failed);
+        let barrel = barrel(&bat, &task, accuracy, &hits);
+        let barrel = found(barrel, "how the barrel rings", &mut failed);
         Ok(Self {
             bat,
             solution,
@@ -170,8 +170,7 @@ fn barrel(bat: &Bat, task: &Task, to: Accuracy, hits: &Sweep) -> Option<Result<B
     }
     let test = BarrelTest::of(bat, task.scene.ball.clone(), to);
     let known = task.scene.hoop.wall().cloned();
-    let hits = Some(hits).filter(|_| task.model == Model::Contact);
-    Some(Barrel::of(bat, BarrelTest { cor: task.scene.cor, known, ..test }, hits))
+    Some(Barrel::of(bat, BarrelTest { cor: task.scene.cor, known, ..test }, Some(hits)))
 }
 
 fn advice(bat: &Bat, tolerance: f64) -> Option<Result<Advice>> {

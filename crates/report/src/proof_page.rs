@@ -8,6 +8,7 @@
 use std::fmt::Write;
 
 use crate::hit_figure;
+use crate::parts::sentence;
 use sweetspot::Result;
 use sweetspot_proof::published::{self, PublishedCase, decimals, number, percent, signed};
 use sweetspot_proof::validation::KnownNumber;
@@ -201,14 +202,6 @@ fn exact_table(exact: &[&PublishedCase], out: &mut String) {
     for (place, source) in sources.iter().enumerate() {
         let _ = writeln!(out, "{}. {}", place + 1, sentence(source));
     }
-}
-
-/// With a capital and a full stop.
-fn sentence(text: &str) -> String {
-    let mut letters = text.chars();
-    let first: String = letters.next().into_iter().flat_map(char::to_uppercase).collect();
-    let stop = if text.ends_with('.') { "" } else { "." };
-    format!("{first}{}{stop}", letters.as_str())
 }
 
 #[cfg(test)]

@@ -1,30 +1,21 @@
 //! The names of the engine that the studies use.
 
-pub use sweetspot::base::error::{Complaint, Error, FilePosition, Result, nearest};
-pub use sweetspot::base::linear::{dot, inverse};
-pub use sweetspot::base::mistakes::Mistakes;
-pub use sweetspot::base::number::{shortest, significant};
-pub use sweetspot::base::quadrature::gauss;
-pub use sweetspot::base::telling::{Tell, nobody};
-pub use sweetspot::base::units::{
-    INCH, POUND_FORCE, Quantity, factor, inches, ounces, shown_length,
+pub use sweetspot::base::error::nearest;
+pub use sweetspot::base::linear::inverse;
+pub use sweetspot::base::number::shortest;
+pub use sweetspot::base::units::{INCH, POUND_FORCE, factor};
+pub use sweetspot::base::{
+    Complaint, Error, FilePosition, Mistakes, Quantity, Result, Tell, dot, error, file, gauss,
+    golden, inches, linear, marks, mistakes, nobody, ounces, shown_length, significant, threads,
+    typed, units,
 };
-pub use sweetspot::base::{error, file, golden, linear, marks, mistakes, threads, typed, units};
-pub use sweetspot::bat::body::{Bat, STANDARD_PIVOT};
-pub use sweetspot::bat::edit::{Bore, Change, Cork, Cup, Edit};
-pub use sweetspot::bat::fixtures::{Attachment, Fixtures, Region};
-pub use sweetspot::bat::inertia::Inertia;
-pub use sweetspot::bat::layup::{Layup, Worth};
-pub use sweetspot::bat::material::{BUILT_IN, Material, Scatter};
-pub use sweetspot::bat::profile::{
-    Interpolation, Piece, Profile, Radii, SAME_PLACE, Section, Stations,
+pub use sweetspot::bat::{
+    Attachment, BUILT_IN, Bat, Bore, Change, Cork, Cup, DiameterChange, Edit, Fixtures, Inertia,
+    Interpolation, Layup, Material, Piece, Profile, Radii, Region, SAME_PLACE, STANDARD_PIVOT,
+    Scatter, Section, Stations, Theory, Weighed, Worth,
 };
-pub use sweetspot::bat::theory::Theory;
-pub use sweetspot::bat::turned::DiameterChange;
-pub use sweetspot::bat::weighed::Weighed;
-pub use sweetspot::beam::mesh::Mesh;
-pub use sweetspot::beam::rule::DEGREES;
 pub use sweetspot::beam::wall::elastic::{ASSUMED_POISSON_RATIO, poisson_ratio};
+pub use sweetspot::beam::{DEGREES, Mesh};
 pub use sweetspot::collision::answer::LATER;
 pub use sweetspot::collision::ball::Ball;
 pub use sweetspot::collision::bbcor::TEST_SPEED;

@@ -5,9 +5,7 @@
 //! three decimals (2.56 for 2 9/16) lie on it but for their rounding: then enough of them are needed that
 //! chance does not put them all there.
 
-use crate::engine::{Bat, Stations, barrel_walls};
-
-const INCH: f64 = 0.0254;
+use crate::engine::{Bat, INCH, Stations, barrel_walls};
 
 /// The step to which diameters were read.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -144,7 +144,7 @@ const TOLERANCE: f64 = 1e-6;
 
 /// The answers of one bat, or the effect of a source on them, in the order of [`COUNTED`]; `None` if there is none, as
 /// for a place that is not hit.
-type Answers = Vec<Option<f64>>;
+type AnswerValues = Vec<Option<f64>>;
 
 /// A reading of the whole bat that settles a property of all its materials.
 struct Settled {
@@ -158,7 +158,7 @@ struct Settled {
 }
 
 /// A source, and the effect of one standard deviation of it on every answer.
-type Row = (Source, Answers);
+type SourceEffect = (Source, AnswerValues);
 
 impl Spread {
     /// The uncertainty of the answers of a bat with these readings.
@@ -175,7 +175,7 @@ impl Spread {
         let factors = settled.iter().map(|settled| Parameter::whole(settled.source.input));
         let parameters: Vec<Parameter> = parameters.chain(factors).collect();
         let mut slopes = analysed.slopes(&parameters).into_iter();
-        let mut rows: Vec<Row> = vec![];
+        let mut rows: Vec<SourceEffect> = vec![];
         let mut failed = |source: &Source| {
             let what = source.input.name();
             left_out.push(format!("{what}, as a bat that differs in it cannot be computed"));
@@ -226,7 +226,7 @@ impl Spread {
 }
 
 /// The effect of a change of that size on the answers, from the effect of a unit change.
-fn times(slopes: Answers, size: f64) -> Answers {
+fn times(slopes: AnswerValues, size: f64) -> AnswerValues {
     slopes.into_iter().map(|slope| Some(slope? * size)).collect()
 }
 
@@ -333,9 +333,9 @@ fn materials(bat: &Bat) -> Vec<(String, Material)> {
 
 /// Holds a reading while a property of the whole bat adapts: subtracts from every row its effect on that answer, and
 /// returns the effect of a unit change of the reading. `None` if the property does not affect it.
-fn settle(rows: &mut [Row], factor: &Answers, answer: usize) -> Option<Answers> {
+fn settle(rows: &mut [SourceEffect], factor: &AnswerValues, answer: usize) -> Option<AnswerValues> {
     let of_reading = factor[answer].filter(|slope| *slope != 0.0)?;
-    let by: Answers = factor.iter().map(|slope| Some((*slope)? / of_reading)).collect();
+    let by: AnswerValues = factor.iter().map(|slope| Some((*slope)? / of_reading)).collect();
     for (_, parts) in rows {
         let Some(moved) = parts[answer] else { continue };
         let held = parts.iter().zip(&by).map(|(part, by)| Some((*part)? - (*by)? * moved));
@@ -347,7 +347,7 @@ fn settle(rows: &mut [Row], factor: &Answers, answer: usize) -> Option<Answers> 
 }
 
 /// The answers with the effect of all sources together.
-fn estimates(values: &Answers, rows: &[Row]) -> Vec<Estimate> {
+fn estimates(values: &AnswerValues, rows: &[SourceEffect]) -> Vec<Estimate> {
     let of = |(k, (answer, value)): (usize, (Answer, &Option<f64>))| {
         let parts: Option<Vec<f64>> = rows.iter().map(|(_, parts)| parts[k]).collect();
         let size = |parts: &Vec<f64>| parts.iter().map(|part| part * part).sum::<f64>().sqrt();
@@ -360,7 +360,7 @@ fn estimates(values: &Answers, rows: &[Row]) -> Vec<Estimate> {
 
 impl Analysed<'_> {
     /// The answers of this bat.
-    fn answers(&self) -> Answers {
+    fn answers(&self) -> AnswerValues {
         let peak = self.spot.exit_speed_max.map(|peak| [peak.x, peak.value]);
         answers(self.bat, self.solution, peak.zip(self.spot.zone))
     }
@@ -373,7 +373,7 @@ impl Analysed<'_> {
     }
 
     /// The effect of a unit change on every answer, by central differences; `None` if a changed bat cannot be computed.
-    fn slopes(&self, parameters: &[Parameter]) -> Vec<Option<Answers>> {
+    fn slopes(&self, parameters: &[Parameter]) -> Vec<Option<AnswerValues>> {
         let patch = parameters.iter().any(|parameter| parameter.input == Input::Patch);
         // The ball's patch does not affect the bat's modes.
         let known = patch.then(|| self.modes(self.bat).ok()).flatten();
@@ -393,7 +393,7 @@ impl Analysed<'_> {
             let solution = known.map_or_else(|| self.modes(&bat), Ok)?;
             self.beside(&bat, solution, scene)
         });
-        let slope = |(parameter, sides): (&Parameter, &[Result<Answers>])| {
+        let slope = |(parameter, sides): (&Parameter, &[Result<AnswerValues>])| {
             let [Ok(less), Ok(more)] = sides else { return None };
             Some(quotient(more, less, 2.0 * parameter.step(self.bat)))
         };
@@ -409,7 +409,7 @@ impl Analysed<'_> {
 
     /// The answers of another bat in that scene, with the same number of modes and the same steps. Its wall is solved
     /// anew, approximately: equally for both sides of a difference.
-    fn beside(&self, bat: &Bat, mut solution: Solution, scene: Scene) -> Result<Answers> {
+    fn beside(&self, bat: &Bat, mut solution: Solution, scene: Scene) -> Result<AnswerValues> {
         let modes = self.hits.solution.modes.len();
         let notes = answers(bat, &solution, None);
         if self.spot.exit_speed_max.is_none() {
@@ -429,7 +429,7 @@ impl Analysed<'_> {
 
 /// The answers of a bat, its modes, and where and how fast (m, m/s) the fastest ball leaves, with the
 /// zone around it (m).
-fn answers(bat: &Bat, solution: &Solution, hit: Option<([f64; 2], [f64; 2])>) -> Answers {
+fn answers(bat: &Bat, solution: &Solution, hit: Option<([f64; 2], [f64; 2])>) -> AnswerValues {
     let of = |answer: Answer| match answer {
         Answer::ExitSpeedPlace => hit.map(|([best, _], _)| best),
         Answer::ExitSpeed => hit.map(|([_, speed], _)| speed),

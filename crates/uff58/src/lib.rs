@@ -68,6 +68,38 @@ pub struct Universal {
     pub converted_from: Option<Units>,
 }
 
+impl Universal {
+    /// Whether the file names its units.
+    pub fn names_units(&self) -> bool {
+        self.datasets.iter().any(|dataset| matches!(dataset, Dataset::Units(_)))
+    }
+
+    /// The nodes of all datasets.
+    pub fn nodes(&self) -> impl Iterator<Item = &Node> {
+        let lists = self.datasets.iter().filter_map(|dataset| match dataset {
+            Dataset::Nodes(nodes) => Some(&nodes.nodes),
+            _ => None,
+        });
+        lists.flatten()
+    }
+
+    /// The data at nodes.
+    pub fn nodal_data(&self) -> impl Iterator<Item = &NodalData> {
+        self.datasets.iter().filter_map(|dataset| match dataset {
+            Dataset::NodalData(data) => Some(data),
+            _ => None,
+        })
+    }
+
+    /// The functions, each with the index of its dataset.
+    pub fn functions(&self) -> impl Iterator<Item = (usize, &Function)> {
+        self.datasets.iter().enumerate().filter_map(|(k, dataset)| match dataset {
+            Dataset::Function(function) => Some((k, &**function)),
+            _ => None,
+        })
+    }
+}
+
 /// A dataset that was not read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Skipped {

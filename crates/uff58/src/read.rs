@@ -8,8 +8,7 @@ use super::{
     Analysis, Complex, Dataset, Header, NodalData, Node, Nodes, Skipped, Stamp, TraceLine, Units,
     Universal,
 };
-use sweetspot::base::error::Result;
-use sweetspot::base::file;
+use sweetspot::base::{Result, file};
 
 /// Columns of eight integers, of coordinates.
 const INTEGERS: [usize; 8] = [10; 8];
@@ -267,20 +266,9 @@ fn trace_line(lines: &mut Lines) -> Result<TraceLine> {
 fn nodal_data(lines: &mut Lines) -> Result<NodalData> {
     let ids = lines.ids()?;
     let expected = "model, analysis, characteristic, kind of data, 2 or 5, count of values";
-    let form = lines.record(expected)?;
-    let integers = form.integers(&INTEGERS[..6], expected)?;
-    let [model, kind, characteristic, quantity, data_type, per_node] = integers[..] else {
-        return Err(form.wrong(format!("{} numbers", integers.len()), expected));
-    };
-    let complex = match data_type {
-        2 => false,
-        5 => true,
-        other => return Err(form.wrong(format!("data type {other}"), "2 (real) or 5 (complex)")),
-    };
-    let per_node = values_per_node(form, per_node)?;
-    let analysis = analysis(lines, kind)?;
-    let values = values_at_nodes(lines, (per_node, complex))?;
-    Ok(NodalData { ids, model, analysis, characteristic, quantity, complex, per_node, values })
+    let form = form(lines, expected, (&[2], &[5], "2 (real) or 5 (complex)"))?;
+    let analysis = analysis(lines, form.kind)?;
+    form.data(lines, ids, analysis)
 }
 
 /// Dataset 2414, the newer form of 55; None where its data are on elements, not at nodes.
@@ -300,17 +288,7 @@ fn analysis_data(lines: &mut Lines) -> Result<Option<NodalData>> {
     }
     let ids = lines.ids()?;
     let expected = "model, analysis, characteristic, kind of result, data type, count of values";
-    let form = lines.record(expected)?;
-    let integers = form.integers(&INTEGERS[..6], expected)?;
-    let [model, kind, characteristic, quantity, data_type, per_node] = integers[..] else {
-        return Err(form.wrong(format!("{} numbers", integers.len()), expected));
-    };
-    let complex = match data_type {
-        1 | 2 | 4 => false,
-        5 | 6 => true,
-        other => return Err(form.wrong(format!("data type {other}"), "1, 2, 4, 5 or 6")),
-    };
-    let per_node = values_per_node(form, per_node)?;
+    let form = form(lines, expected, (&[1, 2, 4], &[5, 6], "1, 2, 4, 5 or 6"))?;
     let expected = "eight integers of the analysis";
     let mut whole = lines.record(expected)?.integers(&INTEGERS, expected)?;
     whole.resize(8, 0);
@@ -326,44 +304,51 @@ fn analysis_data(lines: &mut Lines) -> Result<Option<NodalData>> {
     let (r, s) = (figures(lines)?, figures(lines)?);
     // Design set, iteration, solution set, boundary condition, load set, mode, time step, frequency;
     // time, frequency, eigenvalue, modal mass, viscous, hysteretic; eigenvalue, modal A, modal B.
-    let (load_case, mode) = (whole[4], whole[5]);
-    let analysis = match kind {
-        2 => Analysis::NormalMode {
-            load_case,
-            mode,
-            frequency: r[1],
-            modal_mass: r[3],
-            viscous: r[4],
-            hysteretic: r[5],
-        },
-        3 | 7 => Analysis::ComplexMode {
-            second_order: kind == 7,
-            load_case,
-            mode,
-            eigenvalue: [s[0], s[1]],
-            modal_a: [s[2], s[3]],
-            modal_b: [s[4], s[5]],
-        },
-        5 => Analysis::FrequencyResponse { load_case, step: whole[7], frequency: r[1] },
-        _ => Analysis::Other { kind, integers: whole, reals: [r, s].concat() },
-    };
-    let values = values_at_nodes(lines, (per_node, complex))?;
-    Ok(Some(NodalData {
-        ids,
-        model,
-        analysis,
-        characteristic,
-        quantity,
-        complex,
-        per_node,
-        values,
-    }))
+    let numbers = [whole[4], whole[5], whole[7]];
+    let (normal, pole) = ([r[1], r[3], r[4], r[5]], std::array::from_fn(|k| s[k]));
+    let others = (whole, [r, s].concat());
+    let analysis = analysis_of(form.kind, numbers, normal, pole, others);
+    Ok(Some(form.data(lines, ids, analysis)?))
 }
 
-/// Numbers per node, according to a form.
-fn values_per_node(form: Line, count: i64) -> Result<usize> {
+/// The record of datasets 55 and 2414 that describes their data.
+struct DataForm {
+    model: i64,
+    kind: i64,
+    characteristic: i64,
+    quantity: i64,
+    complex: bool,
+    per_node: usize,
+}
+
+/// Reads that record, of which the data types for real and for complex values are given, and in words.
+fn form(
+    lines: &mut Lines,
+    expected: &str,
+    (real, imaginary, types): (&[i64], &[i64], &str),
+) -> Result<DataForm> {
+    let form = lines.record(expected)?;
+    let integers = form.integers(&INTEGERS[..6], expected)?;
+    let [model, kind, characteristic, quantity, data_type, count] = integers[..] else {
+        return Err(form.wrong(format!("{} numbers", integers.len()), expected));
+    };
+    let complex = imaginary.contains(&data_type);
+    if !complex && !real.contains(&data_type) {
+        return Err(form.wrong(format!("data type {data_type}"), types));
+    }
     let per_node = usize::try_from(count).ok().filter(|n| (1..=1000).contains(n));
-    per_node.ok_or_else(|| form.wrong(format!("{count} values per node"), "1 to 1000"))
+    let unusual = || form.wrong(format!("{count} values per node"), "1 to 1000");
+    let per_node = per_node.ok_or_else(unusual)?;
+    Ok(DataForm { model, kind, characteristic, quantity, complex, per_node })
+}
+
+impl DataForm {
+    /// The dataset, with the values that follow to its end.
+    fn data(self, lines: &mut Lines, ids: [String; 5], analysis: Analysis) -> Result<NodalData> {
+        let Self { model, characteristic, quantity, complex, per_node, .. } = self;
+        let values = values_at_nodes(lines, (per_node, complex))?;
+        Ok(NodalData { ids, model, analysis, characteristic, quantity, complex, per_node, values })
+    }
 }
 
 /// A label and its values, node by node, to the end of the dataset.
@@ -403,24 +388,31 @@ fn analysis(lines: &mut Lines, kind: i64) -> Result<Analysis> {
     // Numbers that a program left out are 0.
     let r = |k: usize| reals.get(k).copied().unwrap_or_default();
     let i = |k: usize| integers.get(2 + k).copied().unwrap_or_default();
-    Ok(match kind {
-        2 => Analysis::NormalMode {
-            load_case: i(0),
-            mode: i(1),
-            frequency: r(0),
-            modal_mass: r(1),
-            viscous: r(2),
-            hysteretic: r(3),
-        },
+    let (normal, pole) = ([0, 1, 2, 3].map(r), [0, 1, 2, 3, 4, 5].map(r));
+    let others = (integers.get(2..).unwrap_or_default().to_vec(), reals.clone());
+    Ok(analysis_of(kind, [i(0), i(1), i(1)], normal, pole, others))
+}
+
+/// The analysis of that kind: its load case and its mode or step; frequency, modal mass, viscous and hysteretic damping
+/// of a normal mode; eigenvalue, modal A and modal B of a complex one; all numbers of any other analysis.
+fn analysis_of(
+    kind: i64,
+    [load_case, mode, step]: [i64; 3],
+    [frequency, modal_mass, viscous, hysteretic]: [f64; 4],
+    pole: [f64; 6],
+    (integers, reals): (Vec<i64>, Vec<f64>),
+) -> Analysis {
+    match kind {
+        2 => Analysis::NormalMode { load_case, mode, frequency, modal_mass, viscous, hysteretic },
         3 | 7 => Analysis::ComplexMode {
             second_order: kind == 7,
-            load_case: i(0),
-            mode: i(1),
-            eigenvalue: [r(0), r(1)],
-            modal_a: [r(2), r(3)],
-            modal_b: [r(4), r(5)],
+            load_case,
+            mode,
+            eigenvalue: [pole[0], pole[1]],
+            modal_a: [pole[2], pole[3]],
+            modal_b: [pole[4], pole[5]],
         },
-        5 => Analysis::FrequencyResponse { load_case: i(0), step: i(1), frequency: r(0) },
-        _ => Analysis::Other { kind, integers: integers[2..].to_vec(), reals },
-    })
+        5 => Analysis::FrequencyResponse { load_case, step, frequency },
+        _ => Analysis::Other { kind, integers, reals },
+    }
 }

@@ -2,7 +2,7 @@
 
 use super::lines::{Line, Lines, SINGLES};
 use super::{Abscissa, Axis, Complex, Dof, Function, Values};
-use sweetspot::base::error::Result;
+use sweetspot::base::Result;
 
 /// How the values of dataset 58b are stored.
 pub(super) struct Binary {

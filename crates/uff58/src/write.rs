@@ -5,7 +5,7 @@ use super::{
     Abscissa, Analysis, Axis, Complex, Dataset, Dof, Function, Header, NodalData, Nodes, Stamp,
     TraceLine, Units, Values,
 };
-use sweetspot::base::error::{Error, Result};
+use sweetspot::base::{Error, Result};
 
 /// The text of a universal file of these datasets in ASCII, with lines ended by a line feed.
 ///

@@ -5,8 +5,8 @@ use serde_json::{Value, json};
 use sweetspot::base::error::{Error, Result};
 use sweetspot::base::number::rounded;
 use sweetspot::base::units::inches;
+use sweetspot_report::parts::cell::two_digits;
 use sweetspot_report::parts::units::Units;
-use sweetspot_report::report::answer_unit::decimals;
 
 use crate::trace::camera::{Camera, Outline, Told};
 use crate::trace::edges::{Edges, edges};
@@ -88,7 +88,7 @@ fn check(told: Told) -> Result<()> {
 /// A small length to two digits.
 fn small(units: Units, value: f64) -> String {
     let (factor, name) = if units.us_first() { (inches(1.0), "in") } else { (1e3, "mm") };
-    format!("{:.*} {name}", decimals(factor * value), factor * value)
+    format!("{:.*} {name}", two_digits(factor * value), factor * value)
 }
 
 /// An edge in pixels of the picture, for display.

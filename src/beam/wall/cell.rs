@@ -16,14 +16,14 @@
 //! E. L. Wilson, AIAA Journal 3 (1965) 2269: solids of revolution under loads without that symmetry, one Fourier term
 //! after the other.
 
-use crate::base::lanes::vectorized;
+use crate::base::vectorized;
 use crate::beam::wall::columns::LayerElement;
 use crate::beam::wall::elastic::Elastic;
 use crate::beam::wall::shapes::Shapes;
 
 /// Integrals over an element of products of two functions: `[i][j]`, a row for each `i`.
 #[derive(Debug, Clone)]
-pub struct Cell {
+pub struct WallCell {
     /// Number of functions, `(p + 1)(q + 1)`; function `i (q + 1) + a` is `φ_i(ξ) χ_a(η)`.
     pub count: usize,
     qq: Vec<f64>,
@@ -37,7 +37,7 @@ pub struct Cell {
 
 /// The shape functions and the points of all elements of one mesh.
 #[derive(Debug, Clone)]
-pub struct Rule {
+pub struct WallRule {
     /// Along the bat.
     pub along: Shapes,
     /// Across the wall.
@@ -47,7 +47,7 @@ pub struct Rule {
 /// Additional points along and across: 1/r is not a polynomial.
 const MORE_POINTS: usize = 4;
 
-impl Rule {
+impl WallRule {
     /// For degree p along and q across.
     pub fn new(p: usize, q: usize) -> Self {
         let shapes = |degree| Shapes::new(degree, degree + MORE_POINTS);
@@ -74,7 +74,7 @@ struct Point {
 fn point_between(
     [a, da]: [f64; 2],
     [b, db]: [f64; 2],
-    rule: &Rule,
+    rule: &WallRule,
     h: f64,
     k: usize,
     l: usize,
@@ -96,9 +96,9 @@ const KINDS: usize = 11;
 /// Matrices of an element: `qq`, `qr`, `rr`, `dd`, `rd`, `qd`, `nn`.
 const MATRICES: usize = 7;
 
-impl Cell {
+impl WallCell {
     /// The integrals over a part of a column of length `h` (m).
-    pub fn new(part: &LayerElement, rule: &Rule, h: f64) -> Self {
+    pub fn new(part: &LayerElement, rule: &WallRule, h: f64) -> Self {
         vectorized!(integrals(part, rule, h))
     }
 
@@ -153,7 +153,7 @@ impl Cell {
 /// The integrals over one part: sums across the wall at each point along it, times products of functions along it. The
 /// sums of all pairs across are kept side by side for each pair along.
 #[inline(always)]
-fn integrals(part: &LayerElement, rule: &Rule, h: f64) -> Cell {
+fn integrals(part: &LayerElement, rule: &WallRule, h: f64) -> WallCell {
     let (p, q) = (rule.along.count, rule.across.count);
     let square = q * q;
     let mut kinds = vec![0.0; KINDS * square];
@@ -194,12 +194,12 @@ fn integrals(part: &LayerElement, rule: &Rule, h: f64) -> Cell {
         }
     }
     let [qq, qr, rr, dd, rd, qd, nn] = matrices;
-    Cell { count, qq, qr, rr, dd, rd, qd, nn }
+    WallCell { count, qq, qr, rr, dd, rd, qd, nn }
 }
 
 /// The sums across at point `k` along, for all pairs of functions across.
 #[inline(always)]
-fn across(part: &LayerElement, rule: &Rule, h: f64, k: usize, kinds: &mut [f64]) {
+fn across(part: &LayerElement, rule: &WallRule, h: f64, k: usize, kinds: &mut [f64]) {
     let q = rule.across.count;
     let square = q * q;
     let xi = rule.along.places[k];
@@ -237,7 +237,7 @@ fn across(part: &LayerElement, rule: &Rule, h: f64, k: usize, kinds: &mut [f64])
 /// `ρ|u|²`, both without the factor π. `motion` holds the coefficients of U, V, W for all functions.
 pub fn energies(
     part: &LayerElement,
-    rule: &Rule,
+    rule: &WallRule,
     h: f64,
     of: &Elastic,
     n: usize,

@@ -51,7 +51,7 @@ pub struct LayerElement {
 
 /// A stack of elements between two places.
 #[derive(Debug, Clone)]
-pub struct Column {
+pub struct WallColumn {
     /// Where it begins (m).
     pub from: f64,
     /// Where it ends (m).
@@ -60,7 +60,7 @@ pub struct Column {
     pub parts: Vec<LayerElement>,
 }
 
-impl Column {
+impl WallColumn {
     /// Radii between the parts at one end, the far one if `at_end` (m).
     pub fn radii(&self, at_end: bool) -> Vec<f64> {
         let xi = if at_end { 1.0 } else { -1.0 };
@@ -71,7 +71,7 @@ impl Column {
 
 /// One end of a stretch.
 #[derive(Debug, Clone, Default)]
-struct Border {
+struct StretchEnd {
     /// Geometric steps towards it.
     steps: usize,
     /// Radii at which the motion is not smooth (m).
@@ -81,13 +81,11 @@ struct Border {
 }
 
 /// The columns of a wall.
-pub fn columns(layers: &Layers, grading: Grading) -> Vec<Column> {
+pub fn columns(layers: &Layers, grading: Grading) -> Vec<WallColumn> {
     let stretches = &layers.stretches;
     let first = &stretches[0];
-    let graded = |soft: bool| match soft {
-        true => Grading { corner: grading.soft, ..grading },
-        false => grading,
-    };
+    let graded =
+        |soft: bool| if soft { Grading { corner: grading.soft, ..grading } } else { grading };
     let of = |left: &Stretch, right: &Stretch| graded(left.stays_stiff(right, &layers.materials));
     let own = graded(first.is_soft_within(&layers.materials));
     let mut lefts = vec![end(first, &first.radii(first.from), grading.knob, own)];
@@ -113,16 +111,16 @@ pub fn columns(layers: &Layers, grading: Grading) -> Vec<Column> {
 }
 
 /// The border at a free end, where layers of different materials make corners.
-fn end(stretch: &Stretch, radii: &[f64], usual: usize, grading: Grading) -> Border {
+fn end(stretch: &Stretch, radii: &[f64], usual: usize, grading: Grading) -> StretchEnd {
     let pairs = stretch.materials.windows(2).zip(&radii[1..]);
     let corners: Vec<f64> =
         pairs.filter(|(pair, _)| pair[0] != pair[1]).map(|(_, radius)| *radius).collect();
     let steps = if corners.is_empty() { usual } else { usual.max(grading.corner) };
-    Border { steps, corners, matched: vec![] }
+    StretchEnd { steps, corners, matched: vec![] }
 }
 
 /// The border between two stretches, for the left and for the right one.
-fn between(left: &Stretch, right: &Stretch, grading: Grading) -> [Border; 2] {
+fn between(left: &Stretch, right: &Stretch, grading: Grading) -> [StretchEnd; 2] {
     let (inside, beyond) = (left.radii(left.to), right.radii(right.from));
     let same = SAME_RADIUS * inside[inside.len() - 1];
     match left.kinks(right) {
@@ -130,7 +128,7 @@ fn between(left: &Stretch, right: &Stretch, grading: Grading) -> [Border; 2] {
             let at = kinks.iter().zip(&inside).filter(|(kink, _)| **kink >= grading.least_kink);
             let corners: Vec<f64> = at.map(|(_, radius)| *radius).collect();
             let steps = if corners.is_empty() { 0 } else { grading.kink };
-            let border = Border { steps, corners, matched: vec![] };
+            let border = StretchEnd { steps, corners, matched: vec![] };
             [border.clone(), border]
         }
         None => {
@@ -149,7 +147,7 @@ fn between(left: &Stretch, right: &Stretch, grading: Grading) -> [Border; 2] {
                 let [[a, b], [c, d]] = sides(*radius);
                 a != c || b != d
             });
-            let border = Border { steps: grading.corner, corners, matched };
+            let border = StretchEnd { steps: grading.corner, corners, matched };
             [border.clone(), border]
         }
     }
@@ -167,16 +165,16 @@ fn around(stretch: &Stretch, radii: &[f64], radius: f64, same: f64) -> [Option<u
 /// The columns of one stretch.
 fn divide(
     stretch: &Stretch,
-    [left, right]: [&Border; 2],
+    [left, right]: [&StretchEnd; 2],
     shortest: f64,
-    columns: &mut Vec<Column>,
+    columns: &mut Vec<WallColumn>,
 ) {
     let length = stretch.to - stretch.from;
     let usual = (LENGTH * stretch.widest()).max(shortest);
     let count = (length / usual).ceil().max(1.0);
     let reach = length / count;
     // The number of steps for which the shortest column is as long as beside a usual column.
-    let steps = |border: &Border, reach: f64| {
+    let steps = |border: &StretchEnd, reach: f64| {
         let fewer = ((usual / reach).ln() / -STEP.ln() - 0.25).round().max(0.0) as usize;
         border.steps.saturating_sub(fewer)
     };
@@ -207,7 +205,7 @@ fn divide(
                 cut(&stretch.radii(place), border, (place - far).abs(), innermost, &mut cuts);
             }
         }
-        columns.push(Column { from, to, parts: layered(&stretch.materials, &radii, cuts) });
+        columns.push(WallColumn { from, to, parts: layered(&stretch.materials, &radii, cuts) });
     }
 }
 
@@ -253,7 +251,7 @@ fn even_out(cuts: &mut Vec<f64>, count: f64) {
 /// Where the layers of a column are cut because of a border, as shares of the layers.
 ///
 /// `radii` are the layers' radii at the border, `far` is the distance of the column's other end from it.
-fn cut(radii: &[f64], border: &Border, far: f64, innermost: bool, cuts: &mut [Vec<f64>]) {
+fn cut(radii: &[f64], border: &StretchEnd, far: f64, innermost: bool, cuts: &mut [Vec<f64>]) {
     let thickness = radii[radii.len() - 1] - radii[0];
     let same = 1e-6 * thickness;
     let places = border.corners.iter().chain(&border.matched);

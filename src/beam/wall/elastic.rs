@@ -1,8 +1,8 @@
 //! How stiff is a material in all directions?
 
-use crate::base::error::{Error, Result};
 use crate::base::linear::inverse;
-use crate::bat::material::{Material, PoissonRatios, ShearModuli};
+use crate::base::{Error, Result};
+use crate::bat::{Material, PoissonRatios, ShearModuli};
 
 /// Poisson's ratio assumed for a metal whose own is not known.
 pub const ASSUMED_POISSON_RATIO: f64 = 0.33;

@@ -1,9 +1,7 @@
 //! Which stretch of a bat is modelled as a wall?
 
-use crate::base::error::{Error, Result};
-use crate::bat::body::Bat;
-use crate::bat::material::Material;
-use crate::bat::profile::{Piece, Section};
+use crate::base::{Error, Result};
+use crate::bat::{Bat, Material, Piece, Section};
 
 /// The stretch that is modelled.
 #[derive(Debug, Clone, Copy, PartialEq)]

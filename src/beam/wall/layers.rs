@@ -1,10 +1,8 @@
 //! Which layers does the wall have, from the bore to the surface, and where do they change?
 
-use crate::base::error::{Error, Result};
-use crate::base::quadrature::{gauss, legendre};
-use crate::bat::body::Bat;
-use crate::bat::material::Material;
-use crate::bat::profile::{Piece, Radii, SAME_PLACE};
+use crate::base::quadrature::legendre;
+use crate::base::{Error, Result, gauss};
+use crate::bat::{Bat, Material, Piece, Radii, SAME_PLACE};
 use crate::beam::wall::elastic::{ASSUMED_POISSON_RATIO, Elastic, poisson_ratio};
 use crate::beam::wall::extent::is_wood;
 

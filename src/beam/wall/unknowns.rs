@@ -7,9 +7,9 @@
 
 use std::ops::Range;
 
-use crate::base::error::{Error, Result};
-use crate::beam::wall::cell::{Cell, Rule};
-use crate::beam::wall::columns::Column;
+use crate::base::{Error, Result};
+use crate::beam::wall::cell::{WallCell, WallRule};
+use crate::beam::wall::columns::WallColumn;
 use crate::beam::wall::layers::{SAME_RADIUS, meet};
 use crate::beam::wall::shapes::restricted;
 
@@ -51,11 +51,11 @@ impl Sharing {
 #[derive(Debug, Clone)]
 pub struct WallMesh {
     /// The columns, from the knob side on.
-    pub columns: Vec<Column>,
+    pub columns: Vec<WallColumn>,
     /// Degree along the bat and across the wall.
     pub degrees: [usize; 2],
     /// Shape functions and points.
-    pub rule: Rule,
+    pub rule: WallRule,
     /// Radii of the intervals of every border (m).
     pub borders: Vec<Vec<f64>>,
     /// Functions of every border.
@@ -63,7 +63,7 @@ pub struct WallMesh {
     /// Functions inside the parts of a column, one range for each part, then those on its edges.
     pub inside: Vec<Vec<Range<usize>>>,
     /// Integrals of every part of every column.
-    pub cells: Vec<Vec<Cell>>,
+    pub cells: Vec<Vec<WallCell>>,
     /// The functions of every part in terms of those of the mesh.
     pub sharing: Vec<Vec<Sharing>>,
     /// Number of functions.
@@ -78,8 +78,8 @@ impl WallMesh {
     /// # Errors
     ///
     /// [`Error::Value`] if two columns do not meet.
-    pub fn new(columns: Vec<Column>, [p, q]: [usize; 2]) -> Result<Self> {
-        let rule = Rule::new(p, q);
+    pub fn new(columns: Vec<WallColumn>, [p, q]: [usize; 2]) -> Result<Self> {
+        let rule = WallRule::new(p, q);
         let borders = borders(&columns)?;
         let mut mesh = Self {
             degrees: [p, q],
@@ -96,7 +96,7 @@ impl WallMesh {
         mesh.number(&columns);
         for (c, column) in columns.iter().enumerate() {
             let h = column.to - column.from;
-            let cell = |part| Cell::new(part, &mesh.rule, h);
+            let cell = |part| WallCell::new(part, &mesh.rule, h);
             let cells = column.parts.iter().map(cell).collect();
             let sharing = (0..column.parts.len()).map(|k| mesh.share(column, c, k)).collect();
             mesh.cells.push(cells);
@@ -107,7 +107,7 @@ impl WallMesh {
     }
 
     /// Numbers the functions: a border, the column beyond it, the next border.
-    fn number(&mut self, columns: &[Column]) {
+    fn number(&mut self, columns: &[WallColumn]) {
         let [p, q] = self.degrees;
         let mut next = 0;
         let mut take = |count: usize, axis: bool, on_axis: &mut Vec<bool>, first: usize| {
@@ -133,7 +133,7 @@ impl WallMesh {
     }
 
     /// The functions of part `k` of column `c` in terms of those of the mesh.
-    fn share(&self, column: &Column, c: usize, k: usize) -> Sharing {
+    fn share(&self, column: &WallColumn, c: usize, k: usize) -> Sharing {
         let [p, q] = self.degrees;
         let mut sharing = Sharing::default();
         for end in 0..2 {
@@ -177,7 +177,7 @@ impl WallMesh {
 }
 
 /// The intervals of every border: the radii of both sides, except those inside a part of the other side.
-fn borders(columns: &[Column]) -> Result<Vec<Vec<f64>>> {
+fn borders(columns: &[WallColumn]) -> Result<Vec<Vec<f64>>> {
     let mut borders = vec![columns[0].radii(false)];
     for pair in columns.windows(2) {
         let (left, right) = (pair[0].radii(true), pair[1].radii(false));

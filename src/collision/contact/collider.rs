@@ -5,13 +5,13 @@ use std::sync::OnceLock;
 use faer::c64;
 use pulp::{Simd, WithSimd};
 
-use crate::base::lanes::widest;
+use crate::base::widest;
 use crate::collision::contact::collocation::{LANES, Lobatto, POINTS};
 use crate::collision::contact::encounter::Encounter;
 use crate::collision::contact::flight::Landing;
 use crate::collision::contact::force_law::ForceLaw;
 use crate::collision::contact::pressing::{LEVELS, Run, StepTables, USUAL};
-use crate::collision::contact::table::{Piece, StepTable};
+use crate::collision::contact::table::{ForcePiece, StepTable};
 use crate::collision::contact::tangent::Tangent;
 use crate::collision::contact::touch::{DrivingPoint, State, Swings, Touch, Tuning};
 
@@ -85,7 +85,7 @@ impl Collider {
         law: &dyn Law,
         speed: f64,
         accuracy: f64,
-    ) -> (Encounter, Vec<Piece>) {
+    ) -> (Encounter, Vec<ForcePiece>) {
         let mut pieces = Vec::new();
         let history = Some(&mut pieces);
         let meeting = Meeting { collider: self, felt, others: &[], speed, accuracy, history };
@@ -141,7 +141,7 @@ pub struct Meeting<'a> {
     others: &'a [DrivingPoint],
     speed: f64,
     accuracy: f64,
-    history: Option<&'a mut Vec<Piece>>,
+    history: Option<&'a mut Vec<ForcePiece>>,
 }
 
 /// An encounter by the ball's law.
@@ -256,7 +256,7 @@ impl<L: ForceLaw> Touch<'_, L> {
                 break;
             }
             let length = run.now.time - met.end;
-            means.record(Piece { start: met.end, length, powers: [0.0; POINTS] });
+            means.record(ForcePiece { start: met.end, length, powers: [0.0; POINTS] });
             began = run.now.time;
             met.touches += 1;
             (run.last, run.faint) = (None, false);
@@ -270,7 +270,7 @@ impl<L: ForceLaw> Touch<'_, L> {
         let start = run.now.time;
         let landing = self.fly(run, between, f64::INFINITY);
         let length = run.now.time - start;
-        means.record(Piece { start, length, powers: [0.0; POINTS] });
+        means.record(ForcePiece { start, length, powers: [0.0; POINTS] });
         landing == Landing::Meets
     }
 

@@ -7,81 +7,24 @@
 //!
 //! Reduction by parts of π/2: W. J. Cody, W. Waite, Software Manual for the Elementary Functions (1980).
 
-use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
+use crate::base::lanes::{arithmetic, in_every_lane};
 
 /// One number for each place; a condition is 1 where it holds and 0 elsewhere.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Each<const W: usize>(pub [f64; W]);
 
-/// The value of the expression in every lane.
+arithmetic! { [const W: usize] Each<W>, Each, W }
+
 macro_rules! each {
-    ($k:ident => $value:expr) => {{
-        let mut each = [0.0; W];
-        let mut $k = 0;
-        while $k < W {
-            each[$k] = $value;
-            $k += 1;
-        }
-        Each(each)
-    }};
-}
-
-macro_rules! operations {
-    ($($name:ident $function:ident $sign:tt;)*) => {$(
-        impl<const W: usize> $name for Each<W> {
-            type Output = Self;
-
-            #[inline(always)]
-            fn $function(self, other: Self) -> Self {
-                each!(k => self.0[k] $sign other.0[k])
-            }
-        }
-
-        impl<const W: usize> $name<f64> for Each<W> {
-            type Output = Self;
-
-            #[inline(always)]
-            fn $function(self, other: f64) -> Self {
-                each!(k => self.0[k] $sign other)
-            }
-        }
-    )*};
-}
-
-operations! {
-    Add add +;
-    Sub sub -;
-    Mul mul *;
-    Div div /;
+    ($k:ident => $value:expr) => {
+        Each(in_every_lane!(W, $k => $value))
+    };
 }
 
 impl<const W: usize> Default for Each<W> {
     #[inline(always)]
     fn default() -> Self {
         Self([0.0; W])
-    }
-}
-
-impl<const W: usize> Neg for Each<W> {
-    type Output = Self;
-
-    #[inline(always)]
-    fn neg(self) -> Self {
-        each!(k => -self.0[k])
-    }
-}
-
-impl<const W: usize> AddAssign for Each<W> {
-    #[inline(always)]
-    fn add_assign(&mut self, other: Self) {
-        *self = *self + other;
-    }
-}
-
-impl<const W: usize> SubAssign for Each<W> {
-    #[inline(always)]
-    fn sub_assign(&mut self, other: Self) {
-        *self = *self - other;
     }
 }
 

@@ -5,7 +5,7 @@ use faer::c64;
 use crate::collision::contact::collocation::{LANES, Lanes, POINTS, sum};
 use crate::collision::contact::force_law::{ForceLaw, Top};
 use crate::collision::contact::step::Step;
-use crate::collision::contact::table::Piece;
+use crate::collision::contact::table::ForcePiece;
 use crate::collision::contact::touch::{State, Touch};
 use crate::motion::phi::{driven, moments, shortened};
 
@@ -30,7 +30,7 @@ pub struct Limits {
 impl Limits {
     /// Whether that force is negative somewhere; on the way back it is small and steep.
     #[inline(always)]
-    pub fn pulls(&self, piece: &Piece) -> bool {
+    pub fn pulls(&self, piece: &ForcePiece) -> bool {
         self.top.is_some_and(|top| piece.pulls(top.force))
     }
 }

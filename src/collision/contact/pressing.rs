@@ -11,7 +11,7 @@ use crate::collision::contact::energy::Limits;
 use crate::collision::contact::events::{CLOSED, Event, Stop};
 use crate::collision::contact::force_law::{ForceLaw, Top};
 use crate::collision::contact::step::{CompressionPath, Coupling, Step};
-use crate::collision::contact::table::{Piece, StepTable};
+use crate::collision::contact::table::{ForcePiece, StepTable};
 use crate::collision::contact::tangent::{Tangent, Walked};
 use crate::collision::contact::touch::{DrivingPoint, State, Touch};
 
@@ -81,13 +81,13 @@ pub(super) struct StepTables<'a> {
     pub all: &'a [c64],
     pub tables: &'a [OnceLock<StepTable>],
     pub longest: f64,
-    pub history: Option<&'a mut Vec<Piece>>,
+    pub history: Option<&'a mut Vec<ForcePiece>>,
     /// Varied bats.
     pub others: &'a [DrivingPoint],
 }
 
 impl StepTables<'_> {
-    pub(super) fn record(&mut self, piece: Piece) {
+    pub(super) fn record(&mut self, piece: ForcePiece) {
         self.history.iter_mut().for_each(|history| history.push(piece));
     }
 }
@@ -95,7 +95,7 @@ impl StepTables<'_> {
 /// A part of the force that is done: the relative energy error before its correction, the force, and the compression.
 struct DoneStep {
     off: f64,
-    piece: Piece,
+    piece: ForcePiece,
     course: CompressionPath,
 }
 

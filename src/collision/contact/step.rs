@@ -2,10 +2,10 @@
 
 use faer::c64;
 
-use crate::base::linear::dot;
+use crate::base::dot;
 use crate::collision::contact::collocation::{LANES, POINTS, polynomial, sum};
 use crate::collision::contact::force_law::{ForceLaw, Top};
-use crate::collision::contact::table::{Piece, StepTable};
+use crate::collision::contact::table::{ForcePiece, StepTable};
 use crate::collision::contact::touch::{State, Touch};
 use crate::motion::phi::{driven, joined, moments, pushed, shortened};
 
@@ -35,12 +35,12 @@ pub struct CompressionPath {
 
 impl Step {
     /// The force from the beginning of the step to the next state.
-    pub fn until(&self, now: &State, next: &State) -> Piece {
+    pub fn until(&self, now: &State, next: &State) -> ForcePiece {
         let length = next.time - now.time;
         let mut powers = shortened(self.powers, length / self.length);
         powers[1] += next.bump;
         powers[2] -= next.bump;
-        Piece { start: now.time, length, powers }
+        ForcePiece { start: now.time, length, powers }
     }
 }
 
@@ -52,7 +52,7 @@ pub(super) const AHEAD: usize = POINTS - 1;
 const RISE: f64 = 0.2;
 
 /// Factors that move a mode on by a time ([`moments`]).
-type Move = (c64, [c64; POINTS]);
+type ModeAdvance = (c64, [c64; POINTS]);
 
 /// Effect of the force at each point on the compression at each point ahead (m/N).
 pub type Coupling = [[f64; POINTS]; AHEAD];
@@ -290,9 +290,9 @@ impl<L: ForceLaw> Touch<'_, L> {
 
     /// The factors of every mode that [`Self::within`] needs for that time.
     #[inline(always)]
-    pub(super) fn moves(&self, time: f64) -> Vec<Move> {
+    pub(super) fn moves(&self, time: f64) -> Vec<ModeAdvance> {
         // Not by an iterator: functions that it calls are compiled without the wider vectors.
-        let mut moves = vec![Move::default(); self.felt.gains.len()];
+        let mut moves = vec![ModeAdvance::default(); self.felt.gains.len()];
         for (n, s) in self.modes() {
             moves[n] = moments(s * time);
         }
@@ -303,7 +303,7 @@ impl<L: ForceLaw> Touch<'_, L> {
     #[inline(always)]
     pub(super) fn moved(
         &self,
-        moves: &[Move],
+        moves: &[ModeAdvance],
         now: &State,
         step: &Step,
         time: f64,

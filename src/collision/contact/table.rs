@@ -8,7 +8,7 @@ use crate::motion::phi::{driven, moments, pushed, shortened};
 
 /// A part of the force in time.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct Piece {
+pub struct ForcePiece {
     /// When it begins, since the first touch (s).
     pub start: f64,
     /// How long it lasts (s).
@@ -17,7 +17,7 @@ pub struct Piece {
     pub powers: [f64; POINTS],
 }
 
-impl Piece {
+impl ForcePiece {
     /// When it ends, since the first touch (s).
     #[inline(always)]
     pub fn end(&self) -> f64 {

@@ -18,7 +18,7 @@
 //! Derivatives of a motion by its parameters: E. Hairer, S. P. Nørsett, G. Wanner, Solving Ordinary
 //! Differential Equations I (1993), section I.14.
 
-use crate::base::linear::dot;
+use crate::base::dot;
 use crate::collision::contact::collocation::{LANES, Lanes, POINTS, sum};
 use crate::collision::contact::events::Event;
 use crate::collision::contact::force_law::{ForceLaw, Top};

@@ -6,7 +6,7 @@ use schemars::transform::Transform;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde_json::{Value, json};
 
-use crate::base::units::Quantity;
+use crate::base::Quantity;
 
 /// A bare number, or a text such as `"33 in"`.
 #[derive(Debug, Clone, PartialEq)]

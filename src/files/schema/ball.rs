@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use schemars::generate::Contract;
 
-use crate::base::units::Quantity;
+use crate::base::Quantity;
 use crate::files::schema::amount::{Amount, Measures};
 use crate::files::schema::document::{Document, Format};
 use crate::files::schema::part::Comment;

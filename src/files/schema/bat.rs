@@ -8,10 +8,10 @@ use schemars::JsonSchema;
 use schemars::generate::Contract;
 use serde_json::{Value, json};
 
-use crate::base::units::Quantity;
-use crate::bat::fixtures::{Absorber, Attachment, Grip, Joint, Region, Support, Tape};
-use crate::bat::profile::Interpolation;
-use crate::bat::weighed::Weighed;
+use crate::base::Quantity;
+use crate::bat::{
+    Absorber, Attachment, Grip, Interpolation, Joint, Region, Support, Tape, Weighed,
+};
 use crate::files::schema::amount::{Amount, Measures, column};
 use crate::files::schema::document::{Document, Format};
 use crate::files::schema::part::{self, Comment, EditInFile, InFile, Material};

@@ -8,8 +8,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{Error, Unexpected};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-use crate::bat::body::Bat;
-use crate::bat::edit::Edit;
+use crate::bat::{Bat, Edit};
 
 /// A kind of document, identified by its member `format`.
 pub trait Document: JsonSchema {

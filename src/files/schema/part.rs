@@ -7,12 +7,10 @@ use schemars::transform::Transform;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde_json::{Map, Value, json};
 
-use crate::base::units::Quantity;
-use crate::bat::edit::{self, Change, Edit};
-use crate::bat::fixtures::Held;
-use crate::bat::layup::Layer;
-use crate::bat::material::{self as bat, BUILT_IN, BuiltIn};
+use crate::base::Quantity;
+use crate::bat::material::BuiltIn;
 use crate::bat::part::{Bound, Field, HEAVIEST, Instead, MOST, MemberKind, Part, Range, SOFTEST};
+use crate::bat::{BUILT_IN, Change, Edit, Held, Layer, edit, material as bat};
 use crate::files::schema::amount::{Amount, Measures};
 
 /// A remark for people: a text or a list of texts, which programs ignore.

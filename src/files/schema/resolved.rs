@@ -3,11 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::bat::edit::Edit;
-use crate::bat::fixtures::Fixtures;
-use crate::bat::material::Material;
-use crate::bat::profile::Interpolation;
-use crate::bat::weighed::Weighed;
+use crate::bat::{Edit, Fixtures, Interpolation, Material, Weighed};
 use crate::files::schema::document::{Document, Format};
 
 /// The bat as it was understood: SI, defaults filled in, densities as weighed, edits listed. It is itself a valid bat

@@ -1,8 +1,7 @@
 //! Which bats can share a plan?
 
-use crate::bat::body::Bat;
-use crate::bat::profile::{Piece, Radii, SAME_PLACE};
-use crate::beam::rule::Rule;
+use crate::bat::{Bat, Piece, Radii, SAME_PLACE};
+use crate::beam::Rule;
 
 /// Whether a bat is made of stations and has only masses on it, and nothing that holds it.
 pub fn plain(bat: &Bat) -> bool {

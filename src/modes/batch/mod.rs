@@ -12,12 +12,9 @@
 mod alike;
 mod worker;
 
-use crate::base::error::Result;
-use crate::base::lanes::{Lanes, WIDTH};
-use crate::base::real::{Over, Real};
-use crate::base::threads;
-use crate::bat::body::Bat;
-use crate::beam::degree::{OfDegree, of_degree};
+use crate::base::{Lanes, Over, Real, Result, WIDTH, threads};
+use crate::bat::Bat;
+use crate::beam::{OfDegree, of_degree};
 use crate::modes::batch::alike::{plain, same_pattern};
 use crate::modes::batch::worker::Worker;
 use crate::modes::mode::Mode;

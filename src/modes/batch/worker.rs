@@ -2,16 +2,10 @@
 
 use std::sync::Arc;
 
-use crate::base::error::{Error, Result};
-use crate::base::lanes::{Lanes, WIDTH, vectorized};
-use crate::base::real::{Over, Real};
-use crate::bat::body::Bat;
-use crate::bat::theory::Theory;
-use crate::beam::changes::Depth;
+use crate::base::{Error, Lanes, Over, Real, Result, WIDTH, vectorized};
+use crate::bat::{Bat, Theory};
 use crate::beam::count::slower_each;
-use crate::beam::mesh::Mesh;
-use crate::beam::sections;
-use crate::beam::view::View;
+use crate::beam::{Depth, Mesh, View, sections};
 use crate::modes::certificate::{add_neighbours, is_twin, round_off, share};
 use crate::modes::eigenpairs::Eigenpairs;
 use crate::modes::mode::Mode;

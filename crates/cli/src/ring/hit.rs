@@ -6,9 +6,9 @@ use sweetspot::collision::strength::breaking_swing;
 use sweetspot::collision::{Effort, Hitter, Model};
 use sweetspot::{Bat, Error, Result, Solution, solve};
 use sweetspot_report::parts::{LINES, wrapped};
-use sweetspot_report::plot::{Picture, Sheet, ringing};
-use sweetspot_report::report::aftermath::{self, AfterHit};
-use sweetspot_report::report::{hit_json, hit_text};
+use sweetspot_report::plot::ringing;
+use sweetspot_report::report::{aftermath, hit_json, hit_text};
+use sweetspot_report::schema::ring::AfterHit;
 use sweetspot_study::ignored;
 
 use crate::common::{Prepared, as_options, on_the_bat};
@@ -47,7 +47,7 @@ pub fn run(args: &Args, bat: Bat, x: f64) -> Result<Done> {
     }
     let watched = if args.watch.is_empty() { vec![scene.hands] } else { args.watch.clone() };
     let mut report = AfterHit::new(&bat, &after, &watched, until);
-    for load in &mut report.loads {
+    for load in &mut report.strength {
         load.reached_at_swing_rad_s =
             breaking_swing(&bat, &solution, (&scene, effort), (x, until), load.limit);
     }
@@ -56,18 +56,18 @@ pub fn run(args: &Args, bat: Bat, x: f64) -> Result<Done> {
     });
     let heard = sound.transpose()?.into_iter().flatten();
     let heard: String = heard.map(|told| wrapped(&format!("Sound: {told}"), 2)).collect();
-    args.output.draw(&args.plots, &bat, |sheet| Ok(drawn(sheet, &bat, &after, &report)))?;
+    args.output.draw(&args.plots, &bat, |sheet| Ok(ringing::after_hit(sheet, &after, &report)))?;
     let code = args.solve.verdict(&solution, &args.output);
     let text = args.output.screen(LINES, |full| {
         let units = args.output.units(&bat);
-        let scene = hit_text::scene(&bat, &scene, model.name(), units);
+        let scene = hit_text::scene(&bat, &scene, model, units);
         let hit = aftermath::impact(&impact, after.end(), units);
         let text = scene + &hit + &aftermath::text(&bat, &report, units, full);
         [(1, "motion and strength", text), (0, "", heard.clone())]
     });
     let text = args.output.deliver(text, || {
         let ignored = ignored::in_hit(&bat, &scene);
-        aftermath::document(&after, &report, hit_json::impact(&bat, &impact), ignored)
+        aftermath::document(report.clone(), hit_json::impact(&bat, &impact), ignored)
     })?;
     let text = put(&args.history, text, || Ok(aftermath::history(&report)))?;
     let text = put(&args.csv, text, || Ok(frames_after(args, &bat, &solution, &after)))?;
@@ -84,20 +84,6 @@ fn asked(args: &Args, bat: &Bat) -> Result<usize> {
     args.solve.refuse_budget("ring --hit")?;
     let count = if args.bat.asked() { args.bat.count() } else { ENOUGH };
     Ok(args.solve.modes_within(count, bat.profile().pieces.len()))
-}
-
-/// The motion of the watched places, their spectrum and the strain along the bat.
-fn drawn(sheet: Sheet, bat: &Bat, after: &Aftermath, report: &AfterHit) -> Vec<Picture> {
-    let picture = ringing::AfterHit {
-        bat: bat.name(),
-        length: bat.length(),
-        after,
-        watched: report.watched.iter().map(|seen| (seen.x_m, &seen.spectrum[..])).collect(),
-        until: report.until,
-        envelope: &report.envelope,
-        damped: report.damped,
-    };
-    picture.pictures(sheet)
 }
 
 /// The bat's deflections after a hit as CSV, the instants in their order.

@@ -10,8 +10,8 @@ use sweetspot::motion::ringing::Ringing;
 use sweetspot::motion::shape::InitialShape;
 use sweetspot::motion::sound::{Sound, WallTones};
 use sweetspot::{Bat, Error, Result, Solution};
-use sweetspot_report::plot::ringing::{self, Moving};
-use sweetspot_report::report::motion::{self, Frames};
+use sweetspot_report::plot::ringing;
+use sweetspot_report::report::motion;
 use sweetspot_report::schema::Written;
 use sweetspot_report::schema::ring::{Motion, RingFile};
 
@@ -52,15 +52,21 @@ pub fn run(args: &Args, bat: Bat) -> Result<Done> {
             (0..x.len()).map(sum).collect()
         })
         .collect();
-    let moving = Moving { bat: bat.name(), x: &x, times: &times, frames: &frames };
-    args.output.draw(&args.plots, &bat, |sheet| Ok(ringing::moving(sheet, &moving)))?;
-    let screen = motion::screen(
-        (&bat, &solution),
-        &Frames { x: &x, times: &times, frames: &frames },
-        args.output.units(&bat),
-    );
+    let moved = Motion {
+        edits: bat.edits().to_vec(),
+        modes: solution.modes.len(),
+        theory: solution.theory.name(),
+        rigid_motion: !args.bending_only && solution.rigid_modes > 0,
+        at_m: args.at,
+        impulse_n_s: args.impulse,
+        x_m: x,
+        times_s: times,
+        deflection_m: frames,
+    };
+    args.output.draw(&args.plots, &bat, |sheet| Ok(ringing::moving(sheet, bat.name(), &moved)))?;
+    let screen = motion::screen(&bat, &moved, args.output.units(&bat));
     let most = if args.output.full { usize::MAX } else { LINES };
-    let table = csv(&x, &times, &frames);
+    let table = csv(&moved.x_m, &moved.times_s, &moved.deflection_m);
     let code = args.solve.verdict(&solution, &args.output);
     let text = match &args.csv {
         Some(path) if path.as_os_str() != "-" => {
@@ -73,29 +79,8 @@ pub fn run(args: &Args, bat: Bat) -> Result<Done> {
         None if stdout().is_terminal() => Screen::from(screen).fitted(most, "", motion::MORE),
         _ => table,
     };
-    let text = args.output.deliver(text, || document(args, (&bat, &solution), x, times, frames))?;
+    let text = args.output.deliver(text, || Written::of(RingFile::Motion(moved)))?;
     Ok(Done::new(text, code).with(warning))
-}
-
-/// The motion as a document: at these places and instants, a row of deflections for each instant.
-fn document(
-    args: &Args,
-    (bat, solution): (&Bat, &Solution),
-    x_m: Vec<f64>,
-    times_s: Vec<f64>,
-    deflection_m: Vec<Vec<f64>>,
-) -> Written<RingFile> {
-    Written::of(RingFile::Motion(Motion {
-        edits: bat.edits().to_vec(),
-        modes: solution.modes.len(),
-        theory: solution.theory.name(),
-        rigid_motion: !args.bending_only && solution.rigid_modes > 0,
-        at_m: args.at,
-        impulse_n_s: args.impulse,
-        x_m,
-        times_s,
-        deflection_m,
-    }))
 }
 
 /// The cause of the motion.

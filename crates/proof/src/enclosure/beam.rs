@@ -11,20 +11,16 @@ use crate::enclosure::radii::{Curved, NUMBER, curved, place};
 use crate::enclosure::sections::Rings;
 use crate::gauss::GAUSS_24;
 use crate::series::{Series, Values};
-use sweetspot::base::error::{Error, Result};
-use sweetspot::base::interval::Interval;
-use sweetspot::bat::body::Bat;
-use sweetspot::bat::fixtures::{Absorber, Attachment, Fixtures, Joint};
-use sweetspot::bat::profile::Piece;
-use sweetspot::bat::theory::Theory;
-use sweetspot::beam::mesh::Mesh;
+use sweetspot::base::{Error, Interval, Result};
+use sweetspot::bat::{Absorber, Attachment, Bat, Fixtures, Joint, Piece, Theory};
+use sweetspot::beam::Mesh;
 
 /// Points of the energies: they determine polynomials of degree 23 and integrate those of degree 47 exactly.
 pub const POINTS: usize = 24;
 
 /// A stretch of the bat in one piece of the profile.
 #[derive(Debug, Clone)]
-pub struct Cell {
+pub struct BeamCell {
     /// Half its length (m).
     pub half: Interval,
     /// Its middle, from the origin of the arms (m).
@@ -77,7 +73,7 @@ pub struct Proven {
     /// The beam theory.
     pub theory: Theory,
     /// Its cells from knob to tip.
-    pub cells: Vec<Cell>,
+    pub cells: Vec<BeamCell>,
     /// The masses on it, by rising border.
     pub masses: Vec<Mass>,
     /// The contacts that hold it at places.
@@ -150,7 +146,7 @@ pub struct Layout {
     /// The factor on densities due to a weighed mass, in addition to the factors already in the densities of the bat.
     pub heavier: Interval,
     /// The attached masses by rising place, with joints last at equal places.
-    pub masses: Vec<Placed>,
+    pub masses: Vec<PlacedMass>,
     /// The contacts, each at the border before a piece.
     pub contacts: Vec<Contact>,
     /// The bed that holds it, between borders of pieces.
@@ -161,7 +157,7 @@ pub struct Layout {
 
 /// A point mass at its place on the bat, or a joint, whose mass is 0.
 #[derive(Debug, Clone, Copy)]
-pub struct Placed {
+pub struct PlacedMass {
     /// The piece of the profile that begins there.
     pub piece: usize,
     /// Its mass (kg).
@@ -198,7 +194,7 @@ impl Layout {
             let border = (0..borders.len()).min_by(|a, b| near(a).total_cmp(&near(b)));
             border.expect("a bat has borders")
         };
-        let placed = |on: &Attachment, give: Option<Give>| Placed {
+        let placed = |on: &Attachment, give: Option<Give>| PlacedMass {
             piece: border_at(on.x),
             mass: data(on.mass),
             inertia: data(on.rotary_inertia),
@@ -221,7 +217,7 @@ impl Layout {
         let fixed = attachments.iter().map(|on| placed(on, None));
         let hung = (joints.len()..).zip(absorbers).map(hung);
         let joints = joints.iter().enumerate().map(joint);
-        let mut masses: Vec<Placed> = fixed.chain(hung).chain(joints).collect();
+        let mut masses: Vec<PlacedMass> = fixed.chain(hung).chain(joints).collect();
         masses.sort_by_key(|placed| placed.piece);
         let whole = place(length, turned);
         let (contacts, bed) = (contacts(bat, border_at), bed(bat, border_at));
@@ -268,7 +264,6 @@ impl Proven {
     /// [`Error::Value`] where the sections of the bat have values too far from 1 to be bounded.
     pub fn of(bat: &Bat, layout: &Layout, mesh: &Mesh, theory: Theory) -> Result<Self> {
         let origin = bat.inertia().balance_point;
-        let gauss = &GAUSS_24;
         let (mut cells, mut begin) =
             (Vec::with_capacity(mesh.len()), vec![usize::MAX; layout.curves.len()]);
         // Cells lie end to end from knob to tip: a gap would be another bat.
@@ -288,7 +283,7 @@ impl Proven {
             return Err(Error::value("mesh", "elements that end before the bat", "all of the bat"));
         }
         let border = |piece: usize| begin.get(piece).copied().unwrap_or(cells.len());
-        let mass = |placed: &Placed| Mass {
+        let mass = |placed: &PlacedMass| Mass {
             border: border(placed.piece),
             mass: placed.mass,
             inertia: placed.inertia,
@@ -303,29 +298,11 @@ impl Proven {
         let bed = layout.bed.map(|bed| Bed { borders: bed.borders.map(border), ..bed });
         let root = root(&cells);
         let (length, stiff) = (bat.length(), cells[root].bending.at[0]);
-        let arm = |contact: &Contact| match cells.get(contact.border) {
-            Some(cell) => (cell.middle - cell.half).middle(),
-            None => length - origin,
+        let arm = |contact: &Contact| {
+            cells.get(contact.border).map_or(length - origin, |cell| cell.begin().middle())
         };
         let base = base(&contacts, arm, length, stiff / length.powi(3));
-        let mut gram = [Interval::point(0.0); 3];
-        for cell in &cells {
-            let arm = cell.arm();
-            let own = cell.mass.product(&arm).product(&arm).integral(gauss);
-            let turning = cell.turning.as_ref().map(|(turning, _)| turning.integral(gauss));
-            let parts = [
-                cell.mass_series[0].integral(),
-                cell.mass_series[1].integral(),
-                own + turning.unwrap_or(Interval::point(0.0)),
-            ];
-            gram.iter_mut().zip(parts).for_each(|(sum, part)| *sum = *sum + cell.half * part);
-        }
-        for Mass { mass, inertia, offset, arm, .. } in &masses {
-            let arm = *arm + *offset;
-            gram[0] = gram[0] + *mass;
-            gram[1] = gram[1] + *mass * arm;
-            gram[2] = gram[2] + *mass * arm.square() + *inertia;
-        }
+        let gram = gram(&cells, &masses);
         Ok(Self { theory, cells, masses, contacts, bed, base, root, gram, origin })
     }
 }
@@ -338,11 +315,40 @@ impl Mass {
     }
 }
 
-impl Cell {
+impl BeamCell {
+    /// The arm at its left end (m).
+    pub fn begin(&self) -> Interval {
+        self.middle - self.half
+    }
+
     /// The arm at the points (m).
     pub fn arm(&self) -> Values<POINTS> {
         Series::of(&[self.middle, self.half]).values(&GAUSS_24)
     }
+}
+
+/// [`Proven::gram`].
+fn gram(cells: &[BeamCell], masses: &[Mass]) -> [Interval; 3] {
+    let gauss = &GAUSS_24;
+    let mut gram = [Interval::point(0.0); 3];
+    for cell in cells {
+        let arm = cell.arm();
+        let own = cell.mass.product(&arm).product(&arm).integral(gauss);
+        let turning = cell.turning.as_ref().map(|(turning, _)| turning.integral(gauss));
+        let parts = [
+            cell.mass_series[0].integral(),
+            cell.mass_series[1].integral(),
+            own + turning.unwrap_or(Interval::point(0.0)),
+        ];
+        gram.iter_mut().zip(parts).for_each(|(sum, part)| *sum = *sum + cell.half * part);
+    }
+    for Mass { mass, inertia, offset, arm, .. } in masses {
+        let arm = *arm + *offset;
+        gram[0] = gram[0] + *mass;
+        gram[1] = gram[1] + *mass * arm;
+        gram[2] = gram[2] + *mass * arm.square() + *inertia;
+    }
+    gram
 }
 
 fn cell(
@@ -352,7 +358,7 @@ fn cell(
     heavier: Interval,
     theory: Theory,
     origin: f64,
-) -> Result<Cell> {
+) -> Result<BeamCell> {
     let gauss = &GAUSS_24;
     let rings = Rings::of(bat.layup(&bat.profile().pieces[piece]), curve, heavier);
     let half = Interval::point(0.5) * curve.length;
@@ -381,11 +387,11 @@ fn cell(
         return Err(unbounded());
     }
     let bending = rings.bending(gauss);
-    Ok(Cell { half, middle, bending, bending_least, mass, mass_series, turning, shear })
+    Ok(BeamCell { half, middle, bending, bending_least, mass, mass_series, turning, shear })
 }
 
 /// The middle one of the cells whose bending stiffness is at least half the largest.
-fn root(cells: &[Cell]) -> usize {
+fn root(cells: &[BeamCell]) -> usize {
     let greatest = cells.iter().map(|cell| cell.bending.at[0]).fold(0.0, f64::max);
     let stiff = |k: &usize| cells[*k].bending.at[0] >= 0.5 * greatest;
     let count = (0..cells.len()).filter(stiff).count();

@@ -72,10 +72,7 @@ impl Eigenvalue {
 /// Lower bound `l − ε²/(b − h)`, rounded down; −∞ where nothing follows.
 fn below(Energies { quotient, residual, .. }: &Energies, b: f64) -> f64 {
     let gap = down(b - quotient.high);
-    match gap > 0.0 {
-        true => down(quotient.low - up(residual / gap)),
-        false => f64::NEG_INFINITY,
-    }
+    if gap > 0.0 { down(quotient.low - up(residual / gap)) } else { f64::NEG_INFINITY }
 }
 
 /// Upper bound `h + ε²/(l − a)`, rounded up; ∞ where nothing follows.

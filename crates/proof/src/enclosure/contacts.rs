@@ -4,9 +4,8 @@
 //! the energy `½ k b(y)²`. A bed restrains the deflection of a stretch with the energy `½ ∫k w² dx`.
 
 use crate::enclosure::radii::NUMBER;
-use sweetspot::base::interval::Interval;
-use sweetspot::bat::body::Bat;
-use sweetspot::bat::fixtures::Held;
+use sweetspot::base::Interval;
+use sweetspot::bat::{Bat, Held};
 
 /// A restraint of a deflection or a rotation.
 #[derive(Debug, Clone, Copy)]

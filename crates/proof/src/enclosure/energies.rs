@@ -19,9 +19,9 @@
 //! the tip side of the masses at its place. This holds because the left side is smallest for `z = σ`. Where κGA differs
 //! from a polynomial `c` by a relative difference of at most `β`, `‖V + zκGAγ‖ ≤ ‖V + zcγ‖ + β z ‖cγ‖`.
 
-use crate::enclosure::beam::{Cell, Mass, Proven};
+use crate::enclosure::beam::{BeamCell, Mass, Proven};
 use crate::enclosure::gives::{Give, YieldingPart};
-use crate::enclosure::moved::{Moved, Trial, Tried};
+use crate::enclosure::moved::{Along, Trial, TrialMotion, Tried};
 use crate::enclosure::reactions::Reactions;
 use crate::gauss::GAUSS_24;
 use crate::series::Series;
@@ -54,39 +54,15 @@ impl Proven {
         }
         let moved = self.moved(trial)?;
         let (mut strain, mut kinetic) = (ZERO, ZERO);
-        let gauss = &GAUSS_24;
         let mut loads = Vec::with_capacity(self.cells.len());
         let mut strains = Vec::with_capacity(self.cells.len());
         for (k, cell) in self.cells.iter().enumerate() {
-            let bend = moved.bending[k].values(gauss);
-            let moment = cell.bending.product(&bend);
-            let mut own = moment.product(&bend).integral(gauss);
-            let mut force = None;
-            if let (Some(shear), Some(slip)) = (&cell.shear, trial.shear_on(k)) {
-                let slip = slip.values(gauss);
-                let product = shear.values.product(&slip);
-                let within = Interval::point(1.0) + Interval::within(shear.share);
-                own = own + product.product(&slip).integral(gauss) * within;
-                force = Some(Series::through(gauss, &product));
-            }
+            let (own, reaction) = cell.strained(&moved.bending[k], trial.shear_on(k));
             strain = strain + cell.half * own;
-            strains.push((Series::through(gauss, &moment), force));
-            let [w, turn] = &moved.cells[k];
-            let [off, turned_off] = moved.drift[k];
-            let w = w.values(gauss);
-            let load = cell.mass.product(&w);
-            let mut own = load.product(&w).integral(gauss);
-            let load = load.wider(cell.mass.largest() * off);
-            let mut couple = None;
-            if let Some((turning, _)) = &cell.turning {
-                let turn = turn.values(gauss);
-                let product = turning.product(&turn);
-                own = own + product.product(&turn).integral(gauss);
-                let product = product.wider(turning.largest() * turned_off);
-                couple = Some(Series::through(gauss, &product));
-            }
+            strains.push(reaction);
+            let (own, load) = cell.carried(&moved.cells[k], moved.drift[k]);
             kinetic = kinetic + cell.half * own;
-            loads.push((Series::through(gauss, &load), couple));
+            loads.push(load);
         }
         for mass in &self.masses {
             let [w, turn] = moved.borders[mass.border].map(Interval::point);
@@ -96,15 +72,7 @@ impl Proven {
                 strain = strain + give.stiffness * moved.gives[give.number].square();
             }
         }
-        for (contact, value) in self.contacts.iter().zip(moved.held(&self.contacts)) {
-            let stiffness = contact.stiffness.unwrap_or(ZERO);
-            strain = strain + stiffness * Interval::point(value).square();
-        }
-        for k in self.in_bed() {
-            let w = moved.cells[k][0].values(gauss);
-            let stiffness = self.bed.map_or(ZERO, |bed| bed.stiffness);
-            strain = strain + stiffness * self.cells[k].half * w.product(&w).integral(gauss);
-        }
+        strain = self.of_holds(&moved, strain);
         let over = strain.reciprocal().filter(|over| over.low > 0.0)?;
         let z = (kinetic * over).middle();
         let mut tried = Tried { moved, loads, strains, z };
@@ -128,6 +96,20 @@ impl Proven {
         let residual = up(left / strain.low);
         let finite = residual.is_finite() && quotient.low.is_finite() && quotient.high.is_finite();
         finite.then_some(Energies { quotient, residual, strain })
+    }
+
+    /// Twice the strain energy, with that of supports, springs and bed.
+    fn of_holds(&self, moved: &TrialMotion, mut strain: Interval) -> Interval {
+        for (contact, value) in self.contacts.iter().zip(moved.held(&self.contacts)) {
+            let stiffness = contact.stiffness.unwrap_or(ZERO);
+            strain = strain + stiffness * Interval::point(value).square();
+        }
+        for k in self.in_bed() {
+            let w = moved.cells[k][0].values(&GAUSS_24);
+            let stiffness = self.bed.map_or(ZERO, |bed| bed.stiffness);
+            strain = strain + stiffness * self.cells[k].half * w.product(&w).integral(&GAUSS_24);
+        }
+        strain
     }
 
     /// Twice the kinetic energy of a rigid motion.
@@ -200,7 +182,7 @@ impl Proven {
     /// there, on either side of the steps.
     fn cross(
         &self,
-        moved: &Moved,
+        moved: &TrialMotion,
         reactions: &[Interval],
         border: usize,
         sign: f64,
@@ -221,9 +203,10 @@ impl Proven {
         }
         for (contact, reaction) in self.contacts.iter().zip(reactions) {
             if contact.border == border {
-                match contact.turning {
-                    false => at[0] = at[0] - sign * *reaction,
-                    true => at[1] = at[1] + sign * *reaction,
+                if contact.turning {
+                    at[1] = at[1] + sign * *reaction;
+                } else {
+                    at[0] = at[0] - sign * *reaction;
                 }
             }
         }
@@ -231,7 +214,45 @@ impl Proven {
     }
 }
 
-impl Moved {
+impl BeamCell {
+    /// Twice the strain energy of curvature and shear strain over half the length, `EIχ` and `κGAγ`.
+    fn strained(&self, bend: &Series, slip: Option<Series>) -> (Interval, Along) {
+        let gauss = &GAUSS_24;
+        let bend = bend.values(gauss);
+        let moment = self.bending.product(&bend);
+        let mut own = moment.product(&bend).integral(gauss);
+        let mut force = None;
+        if let (Some(shear), Some(slip)) = (&self.shear, slip) {
+            let slip = slip.values(gauss);
+            let product = shear.values.product(&slip);
+            let within = Interval::point(1.0) + Interval::within(shear.share);
+            own = own + product.product(&slip).integral(gauss) * within;
+            force = Some(Series::through(gauss, &product));
+        }
+        (own, (Series::through(gauss, &moment), force))
+    }
+
+    /// Twice the kinetic energy of a motion over half the length, `ρA w` and `ρI θ`; the motion itself is within that
+    /// drift.
+    fn carried(&self, [w, turn]: &[Series; 2], [off, turned_off]: [f64; 2]) -> (Interval, Along) {
+        let gauss = &GAUSS_24;
+        let w = w.values(gauss);
+        let load = self.mass.product(&w);
+        let mut own = load.product(&w).integral(gauss);
+        let load = load.wider(self.mass.largest() * off);
+        let mut couple = None;
+        if let Some((turning, _)) = &self.turning {
+            let turn = turn.values(gauss);
+            let product = turning.product(&turn);
+            own = own + product.product(&turn).integral(gauss);
+            let product = product.wider(turning.largest() * turned_off);
+            couple = Some(Series::through(gauss, &product));
+        }
+        (own, (Series::through(gauss, &load), couple))
+    }
+}
+
+impl TrialMotion {
     /// Largest difference of the motion of the trial at a border, seen from the adjacent cell on the inside (towards
     /// the tip for `sign` 1): the drift of that cell and the step at the border.
     pub fn drift_at(&self, border: usize, sign: f64) -> [f64; 2] {
@@ -242,13 +263,13 @@ impl Moved {
 
 impl Mass {
     /// Deflection and rotation of the trial's own motion at its border.
-    fn drifting(&self, moved: &Moved, drift: [f64; 2]) -> [Interval; 2] {
+    fn drifting(&self, moved: &TrialMotion, drift: [f64; 2]) -> [Interval; 2] {
         let at = moved.borders[self.border];
         std::array::from_fn(|i| Interval::point(at[i]) + Interval::within(drift[i]))
     }
 
     /// Upper bound of the term of this compliant part in the residual, `(K (Tk) − z K s)²/K`.
-    fn residual(&self, moved: &Moved, moment: Interval, drift: [f64; 2], z: f64) -> f64 {
+    fn residual(&self, moved: &TrialMotion, moment: Interval, drift: [f64; 2], z: f64) -> f64 {
         let Some(Give { number, way, stiffness }) = self.give else { return 0.0 };
         let load = match way {
             YieldingPart::Joint => moment,
@@ -262,7 +283,7 @@ impl Mass {
 /// V and m on a cell from their values at its left end, and their values at its right end.
 pub fn from_left(
     half: Interval,
-    (load, couple): &(Series, Option<Series>),
+    (load, couple): &Along,
     [force, moment]: [Interval; 2],
 ) -> ([Series; 2], [Interval; 2]) {
     let shear = load.integrated().times(half).plus(force);
@@ -275,7 +296,7 @@ pub fn from_left(
 /// V and m on a cell from their values at its right end, and their values at its left end.
 pub fn from_right(
     half: Interval,
-    (load, couple): &(Series, Option<Series>),
+    (load, couple): &Along,
     [force, moment]: [Interval; 2],
 ) -> ([Series; 2], [Interval; 2]) {
     let before = force - half * load.integral();
@@ -287,12 +308,7 @@ pub fn from_right(
 }
 
 /// The part of a cell in the residual.
-fn of_cell(
-    cell: &Cell,
-    [force, moment]: &[Series; 2],
-    (bent, sheared): &(Series, Option<Series>),
-    z: f64,
-) -> f64 {
+fn of_cell(cell: &BeamCell, [force, moment]: &[Series; 2], (bent, sheared): &Along, z: f64) -> f64 {
     let z = Interval::point(z);
     let left = (*moment - bent.times(z)).square_at_most();
     let mut sum = up(left / cell.bending_least);

@@ -10,7 +10,7 @@
 //! for `(Tk, k′) = ⟨Sk, Sk′⟩`: a unit kink moves the bat on its left and works against m, while a unit stretch moves
 //! only the mass. Masses at the place of a joint are on its knob side.
 
-use sweetspot::base::interval::Interval;
+use sweetspot::base::Interval;
 
 /// Kind of a compliant part.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

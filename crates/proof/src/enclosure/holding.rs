@@ -23,10 +23,11 @@
 use crate::enclosure::contacts::{Bed, Contact};
 use crate::enclosure::energies::{from_left, from_right};
 use crate::enclosure::gives::{Give, YieldingPart, kink, softness, stretch};
+use crate::enclosure::moved::Along;
 use crate::enclosure::stretches::{Met, Rigid, Stretch};
 use crate::gauss::GAUSS_40;
 use crate::series::{Series, Values};
-use sweetspot::base::interval::Interval;
+use sweetspot::base::Interval;
 
 /// Number of restrained Legendre coefficients of the deflection of a bed.
 pub const OF_A_BED: usize = 8;
@@ -53,7 +54,7 @@ pub struct Holding<'a> {
 }
 
 /// Deflection and rotation along the stretches and at their borders, there on the knob side of joints.
-struct Motion {
+struct HeldMotion {
     cells: Vec<[Series; 2]>,
     borders: Vec<[Interval; 2]>,
     /// The strains of the compliant parts.
@@ -61,8 +62,8 @@ struct Motion {
 }
 
 /// Loads along the stretches, and steps of V and m at borders.
-struct Loads {
-    cells: Vec<(Series, Option<Series>)>,
+struct HeldLoads {
+    cells: Vec<Along>,
     steps: Vec<[Interval; 2]>,
     /// The force on every mass (N).
     masses: Vec<Interval>,
@@ -74,7 +75,7 @@ struct Forces {
     /// Moment on a joint or force on a mass on a spring, by the number of the compliant part.
     gives: Vec<Interval>,
 }
-type Matrix = Vec<Vec<Interval>>;
+type IntervalMatrix = Vec<Vec<Interval>>;
 
 const ZERO: Interval = Interval { low: 0.0, high: 0.0 };
 /// Two polynomials of this degree and one of degree 12 are integrated exactly.
@@ -88,7 +89,7 @@ impl Holding<'_> {
     /// Decrease of `Σ τ_n` and `Σ τ_n²` due to the contacts; None where it is not certain that they hold the bat.
     pub fn less(&self, holds: &[Hold]) -> Option<[Interval; 2]> {
         let forces: Vec<Forces> = holds.iter().map(|hold| self.unit(hold)).collect();
-        let motions: Vec<Motion> = forces.iter().map(|forces| self.motion(forces)).collect();
+        let motions: Vec<HeldMotion> = forces.iter().map(|forces| self.motion(forces)).collect();
         let again: Vec<Forces> =
             motions.iter().map(|motion| self.forces(&self.inertia(motion))).collect();
         let (count, size) = (holds.len(), holds.len() + 2);
@@ -122,10 +123,7 @@ impl Holding<'_> {
 
     /// Position of a border (m).
     fn place(&self, border: usize) -> Interval {
-        match self.stretches.get(border) {
-            Some(stretch) => stretch.middle - stretch.half,
-            None => self.rigid.length,
-        }
+        self.stretches.get(border).map_or(self.rigid.length, Stretch::begin)
     }
 
     /// The compliant parts, with their masses.
@@ -135,7 +133,7 @@ impl Holding<'_> {
     }
 
     /// How far a mass's centre is moved (m).
-    fn moved(&self, mass: &Met, motion: &Motion) -> Interval {
+    fn moved(&self, mass: &Met, motion: &HeldMotion) -> Interval {
         let [w, turn] = motion.borders[mass.before];
         w + self.offset(mass) * turn + stretch(mass.give, &motion.gives)
     }
@@ -220,14 +218,14 @@ impl Holding<'_> {
     }
 
     /// A rigid motion: deflection of the balance point, and rotation.
-    fn line(&self, push: Interval, turn: Interval) -> Motion {
+    fn line(&self, push: Interval, turn: Interval) -> HeldMotion {
         let balance = self.rigid.balance;
         let at = |x: Interval| push + turn * (x - balance);
         let cell = |stretch: &Stretch| {
             [Series::of(&[at(stretch.middle), turn * stretch.half]), Series::of(&[turn])]
         };
         let borders = (0..=self.stretches.len()).map(|border| [at(self.place(border)), turn]);
-        Motion {
+        HeldMotion {
             cells: self.stretches.iter().map(cell).collect(),
             borders: borders.collect(),
             gives: vec![ZERO; self.gives().count()],
@@ -235,7 +233,7 @@ impl Holding<'_> {
     }
 
     /// `ρA w`, `ρI θ`, and the steps that masses make: V by `μ w_c`, m by `−(d μ w_c + J θ)`.
-    fn inertia(&self, motion: &Motion) -> Loads {
+    fn inertia(&self, motion: &HeldMotion) -> HeldLoads {
         let gauss = &GAUSS_40;
         let load = |(stretch, [w, turn]): (&Stretch, &[Series; 2])| {
             let load = Series::through(gauss, &stretch.mass.product(&w.values(gauss)));
@@ -256,11 +254,11 @@ impl Holding<'_> {
             *moment = *moment - (self.offset(mass) * push + mass.inertia * turn);
             masses.push(push);
         }
-        Loads { cells, steps, masses }
+        HeldLoads { cells, steps, masses }
     }
 
     /// V and m under loads in balance, from 0 at both ends.
-    fn forces(&self, loads: &Loads) -> Forces {
+    fn forces(&self, loads: &HeldLoads) -> Forces {
         let (mut left, mut right) = (vec![], vec![]);
         // On the tip side of every border, where joints are.
         let mut moments = vec![ZERO; self.stretches.len() + 1];
@@ -295,7 +293,7 @@ impl Holding<'_> {
     }
 
     /// The motion with the strains of these forces, `(m/EI, −V/κGA)`, with rigid motions removed.
-    fn motion(&self, forces: &Forces) -> Motion {
+    fn motion(&self, forces: &Forces) -> HeldMotion {
         let gauss = &GAUSS_40;
         let count = self.stretches.len();
         let mut gives = vec![ZERO; forces.gives.len()];
@@ -332,7 +330,7 @@ impl Holding<'_> {
             let line = Series::of(&[w + half * theta, half * theta]);
             cells[k] = [lifted + line, turned.plus(theta)];
         }
-        let motion = Motion { cells, borders, gives };
+        let motion = HeldMotion { cells, borders, gives };
         // `⟨y, (1, 0)⟩/M` and `⟨y, (x − x_b, 1)⟩/I`.
         let Rigid { over_mass, over_inertia, .. } = *self.rigid;
         let push = self.kinetic_energy(&motion, &self.line(point(1.0), ZERO)) * over_mass;
@@ -340,7 +338,7 @@ impl Holding<'_> {
         let line = self.line(-push, -turn);
         let plus = |(a, b): (&[Series; 2], &[Series; 2])| [a[0] + b[0], a[1] + b[1]];
         let borders = motion.borders.iter().zip(&line.borders);
-        Motion {
+        HeldMotion {
             cells: motion.cells.iter().zip(&line.cells).map(plus).collect(),
             borders: borders.map(|(a, b)| [a[0] + b[0], a[1] + b[1]]).collect(),
             gives: motion.gives,
@@ -348,7 +346,7 @@ impl Holding<'_> {
     }
 
     /// `⟨a, b⟩ = ∫ρA w_a w_b + ρI θ_a θ_b dx` with the terms of the masses.
-    fn kinetic_energy(&self, a: &Motion, b: &Motion) -> Interval {
+    fn kinetic_energy(&self, a: &HeldMotion, b: &HeldMotion) -> Interval {
         let gauss = &GAUSS_40;
         let mut sum = ZERO;
         for (stretch, (a, b)) in self.stretches.iter().zip(a.cells.iter().zip(&b.cells)) {
@@ -393,7 +391,7 @@ fn weighted(a: &Series, b: &Series, c: &Values<40>) -> Interval {
 }
 
 /// The solution of equations with several right sides by elimination, pivots surely not 0.
-fn solved(mut matrix: Matrix, mut right: Matrix) -> Option<Matrix> {
+fn solved(mut matrix: IntervalMatrix, mut right: IntervalMatrix) -> Option<IntervalMatrix> {
     let size = matrix.len();
     for k in 0..size {
         let best = |i: &usize| matrix[*i][k].smallest();

@@ -1,6 +1,6 @@
 //! Which motion has the strains of a trial?
 //!
-//! The motion of a free bat is that of its strains, with the two rigid motions removed ([`Moved`]).
+//! The motion of a free bat is that of its strains, with the two rigid motions removed ([`TrialMotion`]).
 //!
 //! The motion of a held bat passes through plain numbers `(w_k, θ_k)` at the borders of cells: 0 at supports, the
 //! values of the trial at springs, the sums of its strains elsewhere. The first two Legendre coefficients of the
@@ -52,7 +52,7 @@ pub struct Trial {
 /// with the moment and force of the inertia of `w` at the borders, which amplifies nothing.
 ///
 /// For a held bat the motion is that of the trial itself, without steps, drift or removed rigid motion.
-pub struct Moved {
+pub struct TrialMotion {
     /// Curvature on every cell.
     pub bending: Vec<Series>,
     /// Deflection and rotation on every cell, begun anew.
@@ -70,14 +70,17 @@ pub struct Moved {
     pub rigid: [Interval; 2],
 }
 
+/// A quantity of the deflection along a cell, and its counterpart of rotation or shear.
+pub type Along = (Series, Option<Series>);
+
 /// The motion of a trial, with the quantities derived from it along the bat.
 pub struct Tried {
     /// The motion.
-    pub moved: Moved,
+    pub moved: TrialMotion,
     /// ρA w, and ρI θ where sections turn, on every cell.
-    pub loads: Vec<(Series, Option<Series>)>,
+    pub loads: Vec<Along>,
     /// EI χ, and κGA γ in a theory with shear, on every cell.
-    pub strains: Vec<(Series, Option<Series>)>,
+    pub strains: Vec<Along>,
     /// A number near its Rayleigh quotient (s²).
     pub z: f64,
 }
@@ -94,7 +97,7 @@ impl Trial {
     }
 }
 
-impl Moved {
+impl TrialMotion {
     /// Deflection or rotation at each of these contacts.
     pub fn held(&self, contacts: &[Contact]) -> impl Iterator<Item = f64> {
         contacts.iter().map(|contact| self.borders[contact.border][usize::from(contact.turning)])
@@ -106,13 +109,13 @@ const ZERO: Interval = Interval { low: 0.0, high: 0.0 };
 impl Proven {
     /// The motion of a trial, restarted on every cell so that it contains hardly any rigid motion. Other starting
     /// values would also be correct but give wider intervals.
-    pub fn moved(&self, trial: &Trial) -> Option<Moved> {
+    pub fn moved(&self, trial: &Trial) -> Option<TrialMotion> {
         if self.is_held() {
             return self.held(trial);
         }
         let first = self.integrated(trial, [0.0; 2]);
         let [push, turn] = self.rigid(&first)?.map(Interval::middle);
-        let arm = (self.cells[self.root].middle - self.cells[self.root].half).middle();
+        let arm = self.cells[self.root].begin().middle();
         let mut moved = self.integrated(trial, [-(push + turn * arm), -turn]);
         moved.rigid = self.rigid(&moved)?;
         self.add_drift(&mut moved);
@@ -120,7 +123,7 @@ impl Proven {
     }
 
     /// The motion of a held bat.
-    fn held(&self, trial: &Trial) -> Option<Moved> {
+    fn held(&self, trial: &Trial) -> Option<TrialMotion> {
         if trial.terms < 2 || trial.held.len() != self.contacts.len() {
             return None;
         }
@@ -164,7 +167,12 @@ impl Proven {
 
     /// The curvature on a cell that connects the values at its left border with those at its right border, and the
     /// motion.
-    fn between_borders(&self, trial: &Trial, k: usize, moved: &Moved) -> (Series, [Series; 2]) {
+    fn between_borders(
+        &self,
+        trial: &Trial,
+        k: usize,
+        moved: &TrialMotion,
+    ) -> (Series, [Series; 2]) {
         let half = self.cells[k].half;
         let over = half.reciprocal().expect("cells have a length");
         let [[w, theta], [w_end, theta_end]] =
@@ -187,7 +195,7 @@ impl Proven {
     /// The arm of a border (m).
     pub fn arm(&self, border: usize) -> Interval {
         match self.cells.get(border) {
-            Some(cell) => cell.middle - cell.half,
+            Some(cell) => cell.begin(),
             None => self.cells[border - 1].middle + self.cells[border - 1].half,
         }
     }
@@ -205,7 +213,7 @@ impl Proven {
     }
 
     /// `θ′ = χ`, `w′ = θ + γ` from these values at the root, outwards, on every cell from plain numbers.
-    fn integrated(&self, trial: &Trial, start: [f64; 2]) -> Moved {
+    fn integrated(&self, trial: &Trial, start: [f64; 2]) -> TrialMotion {
         let count = self.cells.len();
         let gives: Vec<Interval> = trial.gives.iter().copied().map(Interval::point).collect();
         let mut borders = vec![[0.0; 2]; count + 1];
@@ -243,11 +251,11 @@ impl Proven {
             cells[k] = [lifted + line, turned.plus(theta)];
         }
         let bending = (0..count).map(|k| trial.bending_on(k)).collect();
-        Moved { bending, cells, borders, gives, steps, drift: vec![], rigid: [ZERO; 2] }
+        TrialMotion { bending, cells, borders, gives, steps, drift: vec![], rigid: [ZERO; 2] }
     }
 
-    /// Bounds of [`Moved::drift`] from kinks, jumps and the rigid motion.
-    fn add_drift(&self, moved: &mut Moved) {
+    /// Bounds of [`TrialMotion::drift`] from kinks, jumps and the rigid motion.
+    fn add_drift(&self, moved: &mut TrialMotion) {
         let [push, turn] = moved.rigid;
         let mut sums = [[0.0_f64; 2]; 2];
         moved.drift = vec![[0.0; 2]; self.cells.len()];
@@ -290,7 +298,7 @@ impl Proven {
     }
 
     /// The rigid part of a motion: deflection at the origin of the arms, and rotation.
-    fn rigid(&self, moved: &Moved) -> Option<[Interval; 2]> {
+    fn rigid(&self, moved: &TrialMotion) -> Option<[Interval; 2]> {
         let [force, moment] = self.inertia(moved);
         let [mass, first, second] = self.gram;
         let over = (mass * second - first.square()).reciprocal().filter(|over| over.low > 0.0)?;
@@ -298,7 +306,7 @@ impl Proven {
     }
 
     /// The resultants of the inertia of a motion: force, and moment about the origin of the arms.
-    pub fn inertia(&self, moved: &Moved) -> [Interval; 2] {
+    pub fn inertia(&self, moved: &TrialMotion) -> [Interval; 2] {
         let (mut force, mut moment) = (ZERO, ZERO);
         for (cell, [w, turn]) in self.cells.iter().zip(&moved.cells) {
             let [mass, first] = &cell.mass_series;

@@ -19,9 +19,9 @@
 //! C. Davis, W. M. Kahan, SIAM J. Numer. Anal. 7 (1970) 1: the angle. F. R. Gantmacher, M. G. Krein, Oscillation
 //! Matrices and Kernels and Small Vibrations of Mechanical Systems (AMS Chelsea, 2002): the number of nodes.
 
-use crate::enclosure::beam::{Cell, Proven};
+use crate::enclosure::beam::{BeamCell, Proven};
 use crate::enclosure::conclude::Conclusion;
-use crate::enclosure::moved::{Moved, Trial};
+use crate::enclosure::moved::{Trial, TrialMotion};
 use crate::enclosure::norms::Norms;
 use crate::series::Series;
 use sweetspot::base::interval::{Interval, down, up};
@@ -67,16 +67,16 @@ impl Nodes<'_> {
 /// A deflection that is known to within a bound.
 struct BoundedDeflection<'a> {
     proven: &'a Proven,
-    moved: &'a Moved,
+    moved: &'a TrialMotion,
     off: f64,
 }
 
 /// A place: a cell and where on it, from −1 to 1.
-type Place = (usize, f64);
+type CellPlace = (usize, f64);
 
 impl BoundedDeflection<'_> {
     /// The sign of the deflection of the mode there, up to a common factor; None where it is uncertain.
-    fn sign(&self, (k, xi): Place) -> Option<bool> {
+    fn sign(&self, (k, xi): CellPlace) -> Option<bool> {
         let value = at(&self.moved.cells[k][0], xi);
         let off = up(self.moved.drift[k][0] + self.off);
         if value.low > off {
@@ -89,7 +89,7 @@ impl BoundedDeflection<'_> {
     }
 
     /// The places examined first, from the knob.
-    fn places(&self) -> impl Iterator<Item = Place> + use<> {
+    fn places(&self) -> impl Iterator<Item = CellPlace> + use<> {
         let step = 2.0 / LOOKS as f64;
         let on = move |k: usize| (0..LOOKS).map(move |j| (k, -1.0 + step * (j as f64 + 0.5)));
         let count = self.proven.cells.len();
@@ -98,7 +98,7 @@ impl BoundedDeflection<'_> {
 
     fn nodes(&self) -> Vec<[f64; 2]> {
         let mut nodes = vec![];
-        let mut last: Option<(Place, bool)> = None;
+        let mut last: Option<(CellPlace, bool)> = None;
         for place in self.places() {
             let Some(sign) = self.sign(place) else { continue };
             if let Some((before, _)) = last.filter(|(_, other)| *other != sign) {
@@ -110,7 +110,7 @@ impl BoundedDeflection<'_> {
     }
 
     /// The narrowest interval with a change of sign between two places, the second of that sign.
-    fn between(&self, mut low: Place, mut high: Place, sign: bool) -> [f64; 2] {
+    fn between(&self, mut low: CellPlace, mut high: CellPlace, sign: bool) -> [f64; 2] {
         // From each side up to the last place with a certain sign.
         let ends = [low, high];
         for side in [false, true] {
@@ -124,8 +124,8 @@ impl BoundedDeflection<'_> {
             }
             if side { high = sure } else { low = sure }
         }
-        let x = |(k, xi): Place| {
-            let Cell { half, middle, .. } = &self.proven.cells[k];
+        let x = |(k, xi): CellPlace| {
+            let BeamCell { half, middle, .. } = &self.proven.cells[k];
             *middle + *half * Interval::point(xi) + Interval::point(self.proven.origin)
         };
         [x(low).low.max(0.0), x(high).high]
@@ -133,7 +133,7 @@ impl BoundedDeflection<'_> {
 }
 
 /// A place about half way between two; None where there is none.
-fn halfway((a, xi): Place, (b, eta): Place) -> Option<Place> {
+fn halfway((a, xi): CellPlace, (b, eta): CellPlace) -> Option<CellPlace> {
     if a == b {
         let middle = 0.5 * (xi + eta);
         (middle != xi && middle != eta).then_some((a, middle))

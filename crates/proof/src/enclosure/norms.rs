@@ -30,17 +30,15 @@
 //! G. Fichera, Numerical and Quantitative Analysis (1978): orthogonal invariants of a compact operator. The kernel is
 //! derived here.
 
-use crate::enclosure::beam::Layout;
+use crate::enclosure::beam::{Layout, PlacedMass};
 use crate::enclosure::contacts::{Bed, Contact};
 use crate::enclosure::gives::{Give, YieldingPart, softness};
 use crate::enclosure::holding::{Hold, Holding, OF_A_BED};
 use crate::enclosure::stretches::{Met, Rigid, Stretch, rigid, stretches};
 use crate::gauss::GAUSS_40;
 use crate::series::{Series, Values};
-use sweetspot::base::error::{Error, Result};
-use sweetspot::base::interval::Interval;
-use sweetspot::bat::body::Bat;
-use sweetspot::bat::theory::Theory;
+use sweetspot::base::{Error, Interval, Result};
+use sweetspot::bat::{Bat, Theory};
 
 /// Trace (s²) and square of the Hilbert-Schmidt norm (s⁴) of T.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -82,24 +80,15 @@ impl Norms {
     /// [`Error::Value`] where no short stretch has a polynomial near 1/EI.
     pub fn of(bat: &Bat, layout: &Layout, theory: Theory) -> Result<Self> {
         let (mut stretches, borders) = stretches(bat, layout, theory)?;
-        let masses: Vec<Met> = layout
-            .masses
-            .iter()
-            .map(|placed| Met {
-                before: borders[placed.piece],
-                centre: placed.centre,
-                mass: placed.mass,
-                inertia: placed.inertia,
-                give: placed.give,
-            })
-            .collect();
+        let met = |placed: &PlacedMass| {
+            let PlacedMass { piece, mass, inertia, centre, give, .. } = *placed;
+            Met { before: borders[piece], centre, mass, inertia, give }
+        };
+        let masses: Vec<Met> = layout.masses.iter().map(met).collect();
         let length = layout.length;
         let rigid = rigid(&stretches, &masses);
         let balance = (rigid[1] * point(1.0 / rigid[0].middle())).middle();
-        let split = stretches
-            .iter()
-            .position(|stretch| stretch.middle.middle() > balance)
-            .unwrap_or(stretches.len());
+        let split = stretches.partition_point(|stretch| stretch.middle.middle() <= balance);
         let unbounded = || {
             let found = "a bat whose rigid motions nothing tells apart";
             Error::value("profile", found, "numbers nearer to 1 in SI units")
@@ -110,24 +99,12 @@ impl Norms {
         };
         let rigid = Rigid::of(rigid, length).ok_or_else(unbounded)?;
         let knob: Vec<Met> = masses.iter().filter(|mass| mass.before <= split).copied().collect();
-        let contacts: Vec<Contact> = layout
-            .contacts
-            .iter()
-            .map(|contact| Contact { border: borders[contact.border], ..*contact })
-            .collect();
         let holding = Holding { stretches: &stretches, masses: &masses, split, rigid: &rigid };
-        let mut holds: Vec<Hold> = contacts.into_iter().map(Hold::Place).collect();
-        if let Some(bed) = layout.bed {
-            let bed = Bed { borders: bed.borders.map(|piece| borders[piece]), ..bed };
-            holds.extend((0..OF_A_BED).map(|term| Hold::Bed(bed, term)));
-        }
+        let holds = holds(layout, &borders);
         let less =
             if holds.is_empty() { [ZERO; 2] } else { holding.less(&holds).ok_or_else(unheld)? };
         let count = stretches.len();
-        let border = match stretches.get(split) {
-            Some(stretch) => stretch.middle - stretch.half,
-            None => length,
-        };
+        let border = stretches.get(split).map_or(length, Stretch::begin);
         let (parts_l, outer_l) = from_end(&stretches[..split], &knob, &rigid, border);
         let mirrored: Vec<Stretch> =
             stretches.drain(split..).rev().map(|stretch| stretch.mirrored(length)).collect();
@@ -171,6 +148,17 @@ impl Norms {
     }
 }
 
+/// The restrained quantities of a bat whose pieces begin at these borders of its stretches.
+fn holds(layout: &Layout, borders: &[usize]) -> Vec<Hold> {
+    let at = |contact: &Contact| Contact { border: borders[contact.border], ..*contact };
+    let mut holds: Vec<Hold> = layout.contacts.iter().map(at).map(Hold::Place).collect();
+    if let Some(bed) = layout.bed {
+        let bed = Bed { borders: bed.borders.map(|piece| borders[piece]), ..bed };
+        holds.extend((0..OF_A_BED).map(|term| Hold::Bed(bed, term)));
+    }
+    holds
+}
+
 fn full([a, b, c]: [Interval; 3]) -> [[Interval; 2]; 2] {
     [[a, b], [b, c]]
 }
@@ -196,7 +184,7 @@ fn from_end(
     };
     for k in 0..=stretches.len() {
         let stretch = stretches.get(k);
-        let begin = stretch.map_or(inner, |stretch| stretch.middle - stretch.half);
+        let begin = stretch.map_or(inner, Stretch::begin);
         while let Some(met) = masses.next_if(|met| met.before <= k) {
             // `(s − c) μ` and `(s − c) μ c − J` at the place where it is passed, and their slopes.
             let centre = met.centre - begin;
@@ -238,8 +226,6 @@ impl Sums {
         let gauss = &GAUSS_40;
         let half = stretch.half;
         // Counted from the beginning of the stretch.
-        let begin = stretch.middle - half;
-        let [g11, g12, g22] = rigid.inverse(begin);
         let x = Series::of(&[half, half]).values(gauss);
         let run = |slope: &Series, begin: Interval| {
             let series = slope.integrated().times(half).plus(begin);
@@ -256,21 +242,7 @@ impl Sums {
         let (u1, u1_end) = run(&a, self.kink[0]);
         let (u2, u2_end) = run(&pulled, self.kink[1]);
         let [a, b, u1, u2] = [a, b, u1, u2].map(|series| series.values(gauss));
-        let one = Values::constant(point(1.0));
-        let of = |[u, w]: [&Values<40>; 2]| {
-            let v1 = u.times(g11).sum(&w.times(g12));
-            let v2 = u.times(g12).sum(&w.times(g22));
-            [v1, v2]
-        };
-        let [k1, k2] = of([&u1, &u2]);
-        let kink = [x.difference(&k1), one.times(point(-1.0)).difference(&k2)];
-        let mut strains = vec![([u1, u2], kink, &stretch.soft)];
-        if let Some(slip) = &stretch.slip {
-            let [j1, j2] = of([&a, &b]);
-            // u_γ is the opposite of (A, B).
-            let minus = |values: &Values<40>| values.times(point(-1.0));
-            strains.push(([minus(&a), minus(&b)], [j1.difference(&one), j2], slip));
-        }
+        let strains = strains(stretch, rigid, &x, [u1, u2], [a, b]);
         let mut trace = Values::constant(ZERO);
         let mut slopes = [Values::constant(ZERO); 3];
         for ([u1, u2], [v1, v2], soft) in &strains {
@@ -288,21 +260,7 @@ impl Sums {
             let form = o11.product(v1).product(v1).sum(&twice).sum(&o22.product(v2).product(v2));
             square = square.sum(&form.product(soft));
         }
-        let mut reach = Values::constant(ZERO);
-        for ((_, [v1, v2], soft), kinks) in strains.iter().zip([true, false]) {
-            // Beyond the strain the bat lies on the other line, which differs by the unit strain's own motion.
-            let [w1, w2] =
-                if kinks { [v1.difference(&x), v2.sum(&one)] } else { [v1.sum(&one), *v2] };
-            let ends = [
-                v1.sum(&v2.times(-begin)),
-                v1.sum(&v2.product(&x)),
-                w1.sum(&w2.product(&x)),
-                w1.sum(&w2.times(rigid.length - begin)),
-            ];
-            let squares = ends.map(|end| end.product(&end));
-            let sum = squares.into_iter().reduce(|a, b| a.sum(&b)).expect("four of them");
-            reach = reach.sum(&sum.product(soft));
-        }
+        let reach = reach(&strains, &x, [-stretch.begin(), rigid.length - stretch.begin()]);
         // About the end of the stretch from here on.
         let h = half + half;
         *self = Self {
@@ -312,4 +270,55 @@ impl Sums {
         };
         [trace, square, reach].map(|of| half * of.integral(gauss))
     }
+}
+
+/// A strain at the points of a stretch: `u`, `v` and the upper bound of `1/C`.
+type Strain<'a> = ([Values<40>; 2], [Values<40>; 2], &'a Values<40>);
+
+/// The strains χ and, in a theory with shear, γ at the places `x` from the beginning of a stretch, of `u_χ` and
+/// `(A, B)`.
+fn strains<'a>(
+    stretch: &'a Stretch,
+    rigid: &Rigid,
+    x: &Values<40>,
+    [u1, u2]: [Values<40>; 2],
+    [a, b]: [Values<40>; 2],
+) -> Vec<Strain<'a>> {
+    let one = Values::constant(point(1.0));
+    let [g11, g12, g22] = rigid.inverse(stretch.begin());
+    let of = |[u, w]: [&Values<40>; 2]| {
+        let v1 = u.times(g11).sum(&w.times(g12));
+        let v2 = u.times(g12).sum(&w.times(g22));
+        [v1, v2]
+    };
+    let [k1, k2] = of([&u1, &u2]);
+    let kink = [x.difference(&k1), one.times(point(-1.0)).difference(&k2)];
+    let mut strains = vec![([u1, u2], kink, &stretch.soft)];
+    if let Some(slip) = &stretch.slip {
+        let [j1, j2] = of([&a, &b]);
+        // u_γ is the opposite of (A, B).
+        let minus = |values: &Values<40>| values.times(point(-1.0));
+        strains.push(([minus(&a), minus(&b)], [j1.difference(&one), j2], slip));
+    }
+    strains
+}
+
+/// Γ at these places, with the ends of the bat as far from the beginning of the stretch.
+fn reach(strains: &[Strain], x: &Values<40>, [knob, tip]: [Interval; 2]) -> Values<40> {
+    let one = Values::constant(point(1.0));
+    let mut reach = Values::constant(ZERO);
+    for ((_, [v1, v2], soft), kinks) in strains.iter().zip([true, false]) {
+        // Beyond the strain the bat lies on the other line, which differs by the unit strain's own motion.
+        let [w1, w2] = if kinks { [v1.difference(x), v2.sum(&one)] } else { [v1.sum(&one), *v2] };
+        let ends = [
+            v1.sum(&v2.times(knob)),
+            v1.sum(&v2.product(x)),
+            w1.sum(&w2.product(x)),
+            w1.sum(&w2.times(tip)),
+        ];
+        let squares = ends.map(|end| end.product(&end));
+        let sum = squares.into_iter().reduce(|a, b| a.sum(&b)).expect("four of them");
+        reach = reach.sum(&sum.product(soft));
+    }
+    reach
 }

@@ -5,10 +5,9 @@
 //! through such intervals by the formulas of `bat/pchip.rs`. Slopes are continuous functions of the stations, so that
 //! where an interval leaves a branch open the hull of both branches is correct.
 
-use sweetspot::base::error::{Error, Result};
-use sweetspot::base::interval::{Interval, UNIT, up};
-use sweetspot::bat::body::Bat;
-use sweetspot::bat::profile::{Interpolation, Piece, Radii, SAME_PLACE, Stations};
+use sweetspot::base::interval::{UNIT, up};
+use sweetspot::base::{Error, Interval, Result};
+use sweetspot::bat::{Bat, Interpolation, Piece, Radii, SAME_PLACE, Stations};
 
 /// Relative error of a length against its text in the file. A fraction of an inch takes a quotient and a sum, the unit
 /// a factor and a product, feet and inches another sum: `5u`, and a half is exact.

@@ -17,7 +17,7 @@ use crate::enclosure::beam::Proven;
 use crate::enclosure::contacts::Contact;
 use crate::enclosure::moved::Tried;
 use crate::series::Series;
-use sweetspot::base::interval::Interval;
+use sweetspot::base::Interval;
 
 /// The reactions in equilibrium with a motion's inertia (times s²).
 pub struct Reactions {

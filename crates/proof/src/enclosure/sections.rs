@@ -3,9 +3,9 @@
 use crate::enclosure::radii::{Cubic, Curved, NUMBER};
 use crate::gauss::{GAUSS_40, Gauss};
 use crate::series::{Series, Values};
-use sweetspot::base::interval::{Interval, down, up};
-use sweetspot::bat::layup::{Layer, Layup};
-use sweetspot::bat::material::Material;
+use sweetspot::base::Interval;
+use sweetspot::base::interval::{down, up};
+use sweetspot::bat::{Layer, Layup, Material};
 
 /// Degree of the polynomials that approximate 1/EI, κGA of a tube and 1/κGA.
 const DEGREE: usize = 12;
@@ -199,10 +199,7 @@ impl<'a> Rings<'a> {
         let own = self.summed(|ring| {
             ring.squares(gauss).times(Interval::pi() * self.heavier * data(ring.material.density))
         });
-        match self.layup.tape == 0.0 {
-            true => own,
-            false => own.sum(&Values::constant(data(self.layup.tape))),
-        }
+        if self.layup.tape == 0.0 { own } else { own.sum(&Values::constant(data(self.layup.tape))) }
     }
 
     /// ρI (kg m) at the points: `ρ π/4 (b⁴ − a⁴)` of every ring, and of tape on the surface `½ m r²`.

@@ -10,10 +10,8 @@ use crate::enclosure::radii::Curved;
 use crate::enclosure::sections::{Rings, inverse};
 use crate::gauss::GAUSS_40;
 use crate::series::{Series, Values};
-use sweetspot::base::error::{Error, Result};
-use sweetspot::base::interval::Interval;
-use sweetspot::bat::body::Bat;
-use sweetspot::bat::theory::Theory;
+use sweetspot::base::{Error, Interval, Result};
+use sweetspot::bat::{Bat, Theory};
 
 const ZERO: Interval = Interval { low: 0.0, high: 0.0 };
 /// Largest relative excess of the polynomials over 1/EI; otherwise the stretch is halved.
@@ -182,6 +180,11 @@ fn halved(
 }
 
 impl Stretch {
+    /// Its beginning from the end of the bat (m).
+    pub fn begin(&self) -> Interval {
+        self.middle - self.half
+    }
+
     fn of(
         bat: &Bat,
         layout: &Layout,

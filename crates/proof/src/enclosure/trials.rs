@@ -3,11 +3,10 @@
 use std::ops::Range;
 
 use crate::enclosure::moved::Trial;
-use sweetspot::base::error::Result;
-use sweetspot::bat::body::Bat;
-use sweetspot::bat::theory::Theory;
+use sweetspot::base::Result;
+use sweetspot::bat::{Bat, Theory};
+use sweetspot::beam::View;
 use sweetspot::beam::attached::Contact;
-use sweetspot::beam::view::View;
 use sweetspot::modes::pairs::pairs_of;
 use sweetspot::modes::plan::Plan;
 use sweetspot::modes::request::CONVERGED;

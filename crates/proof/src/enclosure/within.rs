@@ -12,12 +12,8 @@
 
 use crate::enclosure::beam::carried;
 use crate::enclosure::guarantee::{Guarantee, guarantee};
-use sweetspot::base::error::{Error, Result};
-use sweetspot::bat::body::Bat;
-use sweetspot::bat::fixtures::Region;
-use sweetspot::bat::layup::{Layer, Layup};
-use sweetspot::bat::material::Material;
-use sweetspot::bat::profile::{Profile, Stations};
+use sweetspot::base::{Error, Result};
+use sweetspot::bat::{Bat, Layer, Layup, Material, Profile, Region, Stations};
 use sweetspot::modes::request::Request;
 use sweetspot::modes::theory_choice;
 

@@ -2,7 +2,7 @@
 
 use crate::extremes::{Outcome, Verdict};
 use crate::promise::{ALWAYS, KNOWN_TO, largest};
-use sweetspot::base::error::{Error, Result};
+use sweetspot::base::{Error, Result};
 use sweetspot::modes::solve::Solution;
 
 /// Compares a solution for a tolerance with the exact frequencies (Hz). If every error is within three times the stated

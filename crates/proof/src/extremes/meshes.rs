@@ -7,11 +7,9 @@ use crate::extremes::sizes::{Size, dowel};
 use crate::extremes::{Outcome, Verdict};
 use crate::promise::{ALWAYS, largest};
 use crate::validation::Truth;
-use sweetspot::base::error::Result;
-use sweetspot::bat::body::Bat;
-use sweetspot::bat::material::Material;
-use sweetspot::bat::profile::{Interpolation, Profile, Stations};
-use sweetspot::beam::dowel::{Ends, beta_l};
+use sweetspot::base::Result;
+use sweetspot::bat::{Bat, Interpolation, Material, Profile, Stations};
+use sweetspot::beam::{Ends, beta_l};
 use sweetspot::modes::solve::{Request, Solver, solve};
 
 /// Ten modes of the dowel on a fixed mesh of cubic elements, to 1e-12 of the exact frequencies

@@ -11,7 +11,7 @@ mod sizes;
 mod meshes;
 mod sameness;
 
-use sweetspot::base::error::Result;
+use sweetspot::base::Result;
 
 /// How a row ended.
 #[derive(Debug, Clone, PartialEq)]

@@ -7,10 +7,8 @@ use crate::extremes::Outcome;
 use crate::extremes::judge::{against, apart, difference};
 use crate::promise::largest;
 use crate::validation::Truth;
-use sweetspot::base::error::Result;
-use sweetspot::bat::body::Bat;
-use sweetspot::bat::material::Material;
-use sweetspot::bat::profile::{Interpolation, Profile, Stations};
+use sweetspot::base::Result;
+use sweetspot::bat::{Bat, Interpolation, Material, Profile, Stations};
 use sweetspot::modes::solve::{Request, Solution, solve};
 
 /// Twice the largest difference that another order of the same elements may cause by rounding.

@@ -4,10 +4,8 @@ use crate::extremes::judge::{against, apart, difference};
 use crate::extremes::{Outcome, Verdict};
 use crate::promise::ALWAYS;
 use crate::validation::Truth;
-use sweetspot::base::error::Result;
-use sweetspot::bat::body::Bat;
-use sweetspot::bat::material::Material;
-use sweetspot::bat::profile::{Interpolation, Profile, Stations};
+use sweetspot::base::Result;
+use sweetspot::bat::{Bat, Interpolation, Material, Profile, Stations};
 use sweetspot::modes::solve::{Request, Solution, solve};
 
 fn request(modes: usize, tolerance: f64) -> Request {

@@ -5,11 +5,9 @@ use crate::extremes::judge::{against, apart, difference, refusal};
 use crate::extremes::{Outcome, Verdict};
 use crate::promise::largest;
 use crate::validation::Truth;
-use sweetspot::base::error::Result;
-use sweetspot::bat::body::Bat;
-use sweetspot::bat::material::Material;
-use sweetspot::bat::profile::{Interpolation, Profile, Stations};
-use sweetspot::beam::dowel::{Dowel, Ends};
+use sweetspot::base::Result;
+use sweetspot::bat::{Bat, Interpolation, Material, Profile, Stations};
+use sweetspot::beam::{Dowel, Ends};
 use sweetspot::modes::solve::{Request, Solution, solve};
 
 /// A solid round bar in SI units; by default one like a bat.

@@ -1,10 +1,9 @@
 //! How reliable are the numbers: what is certified, what was neglected, and the error that causes.
 
-use crate::analysis::Analysis;
-use crate::page::shown;
-use crate::parts::Units;
-use crate::report::{advice, hit_text, trust};
-use sweetspot::{Request, Theory};
+use crate::analysis::{Analysis, Proof};
+use crate::parts::{Quantity, Units, sentence};
+use crate::report::{advice, hit_text, text, trust};
+use sweetspot::Request;
 use sweetspot_proof::enclosure::guarantee::guarantee;
 use sweetspot_proof::promise::{ALWAYS, largest};
 use sweetspot_study::ignored::{ignored, in_hit};
@@ -12,7 +11,7 @@ use sweetspot_study::trade::reference::solver_name;
 
 /// The uncertainty of this bat due to wood, scale and calipers, and what would reduce it.
 pub fn open(analysis: &Analysis, units: Units) -> Vec<String> {
-    trust::of_bat(analysis, units).iter().map(|text| shown::sentence(text)).collect()
+    trust::of_bat(analysis, units).iter().map(|text| sentence(text)).collect()
 }
 
 /// What is certified, one sentence each.
@@ -22,38 +21,38 @@ pub fn certified(analysis: &Analysis, units: Units) -> Vec<String> {
     let mut told = vec![];
     if !solution.modes.is_empty() {
         let count = solution.modes.len();
-        let worst = shown::error(solution.worst());
+        let worst = format!("{:.0e}", solution.worst());
         told.push(match (task.hits.elements, solution.met()) {
             (Some(_), _) => format!(
                 "Frequencies: the elements were asked for and no tolerance; each of the {count} is \
                  within {worst} of itself."
             ),
             (None, true) => format!(
-                "Frequencies: asked within {}, and met; each of the {count} is within {worst} of \
-                 itself, by an estimate made for each.",
-                shown::error(tolerance)
+                "Frequencies: asked within {tolerance:.0e}, and met; each of the {count} is within {worst} of \
+                 itself, by an estimate made for each."
             ),
             (None, false) => format!(
-                "Frequencies: asked within {}, NOT met ({}); each of the {count} is within {worst} \
+                "Frequencies: asked within {tolerance:.0e}, NOT met ({}); each of the {count} is within {worst} \
                  of itself.",
-                shown::error(tolerance),
                 solution.ending
             ),
         });
-        told.push(count_of_modes(analysis).to_owned());
+        told.push(text::counted(&analysis.bat, solution).to_owned());
         told.extend(proven(analysis));
     }
-    let proof = &analysis.proof;
-    told.push(format!(
-        "Proof: on the uniform dowel, whose frequencies are known exactly, the same solver finds \
-         modes 1 to {} within {} and states {}.",
-        proof.modes,
-        shown::error(proof.truth),
-        shown::error(proof.stated)
-    ));
+    told.push(format!("Proof: {}.", proof(analysis)));
     told.extend(exit_speeds(analysis, units));
-    told.extend(one_line(&hit_text::beyond(&analysis.hits, &task.scene, units)));
-    told.iter().map(|text| shown::sentence(text)).collect()
+    told.extend(hit_text::beyond(&analysis.hits, &task.scene, units));
+    told.iter().map(|text| sentence(text)).collect()
+}
+
+/// The accuracy of the solver where the frequencies are known.
+pub fn proof(analysis: &Analysis) -> String {
+    let Proof { modes, truth, stated } = analysis.proof;
+    format!(
+        "on the uniform dowel, whose frequencies are known exactly, the same solver finds modes 1 to {modes} within \
+         {truth:.0e} and states {stated:.0e}"
+    )
 }
 
 /// A bat of more pieces than this is not proven in a report: it would take long.
@@ -90,18 +89,6 @@ fn proven(analysis: &Analysis) -> Option<String> {
     })
 }
 
-/// Whether it is certain that no mode is missing.
-fn count_of_modes(analysis: &Analysis) -> &'static str {
-    let solution = &analysis.solution;
-    let by_nodes = analysis.bat.fixtures().none_moving() && !solution.theory.shears();
-    match (solution.complete, by_nodes) {
-        (true, true) => "No mode is missing: mode n has its n + 1 nodes.",
-        (true, false) => "No mode is missing, by an inertia count.",
-        (false, true) => "A MODE MAY BE MISSING: not every mode n has n + 1 nodes.",
-        (false, false) => "A MODE MAY BE MISSING: the inertia count differs from the modes found.",
-    }
-}
-
 /// The largest error of an exit speed within the model.
 fn exit_speeds(analysis: &Analysis, units: Units) -> Option<String> {
     let hits = &analysis.hits;
@@ -115,32 +102,18 @@ fn exit_speeds(analysis: &Analysis, units: Units) -> Option<String> {
         (None, false) => "; NOT met",
     };
     Some(format!(
-        "Exit speeds: each within {} of the closing speed, {} at most, by estimate, as this model \
+        "Exit speeds: each within {worst:.0e} of the closing speed, {} at most, by estimate, as this model \
          has them{verdict}.",
-        shown::error(worst),
-        small(units, worst * fastest),
+        Quantity::Speed.said(units, worst * fastest),
     ))
-}
-
-/// A small speed: one digit.
-fn small(units: Units, value: f64) -> String {
-    let mph = sweetspot::base::units::miles_per_hour(value);
-    if value >= 0.01 {
-        return units.speed(value);
-    }
-    units.show(format!("{} m/s", shown::error(value)), format!("{} mph", shown::error(mph)))
 }
 
 /// How it was computed, a sentence each.
 pub fn method(analysis: &Analysis) -> Vec<String> {
     let solution = &analysis.solution;
-    let theory = match solution.theory {
-        Theory::EulerBernoulli | Theory::Auto => "Euler–Bernoulli's theory",
-        Theory::Rayleigh => "Rayleigh's theory (with rotary inertia)",
-        Theory::Timoshenko => "Timoshenko's theory (with rotary inertia and shear)",
-    };
     let mut told = vec![format!(
-        "The bat is a beam by {theory}: {} elements of degree {}, solver {} ({}).",
+        "The bat is a beam by the theory of {}: {} elements of degree {}, solver {} ({}).",
+        text::theory(solution.theory),
         solution.mesh.len(),
         solution.degree,
         solver_name(solution.solver),
@@ -149,15 +122,14 @@ pub fn method(analysis: &Analysis) -> Vec<String> {
     if !solution.damping.modes.is_empty() {
         told.push(format!("Damping: {}.", solution.damping.kind));
     }
-    let meaning = one_line(&hit_text::meaning(analysis.task.model));
-    told.extend(meaning.map(|meaning| format!("The hit: {meaning}.")));
-    told.iter().map(|text| shown::sentence(text)).collect()
+    told.push(format!("The hit: {}.", hit_text::meaning(analysis.task.model)));
+    told.iter().map(|text| sentence(text)).collect()
 }
 
 /// What the model neglected, and the error that causes.
 pub fn left_out(analysis: &Analysis) -> Vec<String> {
     let ignored = ignored(&analysis.bat, &analysis.solution);
-    let mut told: Vec<String> = ignored.iter().map(|text| shown::sentence(text)).collect();
+    let mut told: Vec<String> = ignored.iter().map(|text| sentence(text)).collect();
     told.extend(left_out_of_hit(analysis));
     told
 }
@@ -165,17 +137,11 @@ pub fn left_out(analysis: &Analysis) -> Vec<String> {
 /// What the hits neglected, which does not affect the modes.
 pub fn left_out_of_hit(analysis: &Analysis) -> Vec<String> {
     let ignored = in_hit(&analysis.bat, &analysis.task.scene);
-    ignored.iter().map(|text| shown::sentence(&format!("Left out: {text}"))).collect()
+    ignored.iter().map(|text| sentence(&format!("Left out: {text}"))).collect()
 }
 
 /// What the model of this bat needs.
 pub fn needed(analysis: &Analysis) -> Vec<String> {
     let told = analysis.advice.as_ref().map_or(vec![], advice::recommendation);
-    told.iter().map(|text| shown::sentence(text)).collect()
-}
-
-/// A text made for a terminal as one line; None if it is empty.
-fn one_line(text: &str) -> Option<String> {
-    let line = text.split_whitespace().collect::<Vec<_>>().join(" ");
-    (!line.is_empty()).then_some(line)
+    told.iter().map(|text| sentence(text)).collect()
 }

@@ -2,8 +2,7 @@
 
 use crate::page::figure::Figure;
 use crate::page::html::Page;
-use crate::page::shown;
-use crate::parts::{Fold, Part, Section, Table, Units};
+use crate::parts::{Fold, Part, Quantity, Section, Table, Units, sentence};
 use crate::plot::compared::pictures;
 use crate::report::comparison::{ALONG, ComparisonRow, FIRST, letter, rows, swing, words};
 use crate::report::edits;
@@ -42,7 +41,7 @@ fn sections<'a>(comparison: &Comparison, command: &'a str, units: Units) -> Vec<
         ordered(rows(comparison, units)).into_iter().partition(|row| row.differs);
     let (first, others): (Vec<ComparisonRow>, Vec<ComparisonRow>) =
         differing.into_iter().partition(|row| FIRST.contains(&row.key.as_str()));
-    let sentences = words(comparison, units).into_iter().map(|text| shown::sentence(&text));
+    let sentences = words(comparison, units).into_iter().map(|text| sentence(&text));
     let (along, best): (Vec<String>, Vec<String>) =
         sentences.partition(|text| text.starts_with(ALONG));
     let section = |fold, id, title, parts| Section { fold, id, title, parts };
@@ -88,10 +87,10 @@ fn edited(comparison: &Comparison, units: Units) -> Vec<String> {
 /// The conditions common to all hits.
 fn scene(comparison: &Comparison, units: Units) -> Vec<String> {
     let first = &comparison.bats[0];
-    let speed = units.speed(first.scene.ball_speed);
+    let speed = Quantity::Speed.said(units, first.scene.ball_speed);
     vec![
         format!("{} at {speed}.", first.scene.ball.name),
-        shown::sentence(
+        sentence(
             swing(comparison, units).split_whitespace().collect::<Vec<_>>().join(" ").as_str(),
         ),
         "Differences within the stated errors of both computations count as none.".to_owned(),
@@ -117,7 +116,7 @@ fn table(comparison: &Comparison, caption: &str, rows: Vec<ComparisonRow>) -> Ta
     for ComparisonRow { label, values, differences, pieces: apart, .. } in rows {
         let others = values[1..].iter().zip(differences).map(|(value, by)| match by.as_str() {
             "" | "none" => value.clone(),
-            by => format!("{value}\n{}", by.replace('-', "−")),
+            by => format!("{value}\n{by}"),
         });
         let cells = [label, values[0].clone()].into_iter().chain(others);
         let cells = cells.chain(pieces.then_some(apart));

@@ -5,12 +5,11 @@ use crate::page::data::Data;
 use crate::page::figure::Figure;
 use crate::page::html::Page;
 use crate::page::moment::{Moment, moments};
-use crate::page::shown::sentence;
 use crate::page::summary::{NO_HIT, Summary};
-use crate::page::{accuracy, inputs, players, tables};
-use crate::parts::{Fold, Input, Part, Section, Units};
+use crate::page::{accuracy, inputs, players};
+use crate::parts::{Fold, Input, Part, Section, Units, sentence};
 use crate::plot::sets::of_analysis;
-use crate::report::{edits, hit_text, hoop, hoop_notes, lathe};
+use crate::report::{damped, edits, hit_text, hoop, hoop_notes, lathe, tables};
 use sweetspot::Result;
 use sweetspot::base::number::rounded;
 use sweetspot::collision::aftermath::Aftermath;
@@ -165,8 +164,9 @@ impl<'a> Report<'a> {
     }
 
     fn spots(&'a self, units: Units) -> Vec<Part<'a>> {
+        let Analysis { bat, figures, .. } = self.analysis;
         match self.hits() {
-            true => vec![Part::Table(tables::sweet_spots(self.analysis, units))],
+            true => hit_text::sweet_spot(bat, &figures.spot, units),
             false => vec![Part::Missing(NOTHING)],
         }
     }
@@ -183,7 +183,7 @@ impl<'a> Report<'a> {
             parts.push(Part::Missing("A bat that does not bend takes no vibration."));
         }
         parts.push(Part::Hovered("ledger"));
-        parts.push(Part::Table(tables::ledger(self.analysis, units)));
+        parts.push(Part::Table(tables::ledger(&self.analysis.figures, units)));
         parts
     }
 
@@ -204,8 +204,14 @@ impl<'a> Report<'a> {
     }
 
     fn more(&'a self, units: Units) -> Vec<Part<'a>> {
-        let moves = tables::moves(self.analysis, units);
-        vec![Part::Table(moves), Part::Table(tables::nodes(self.analysis, units))]
+        /// Modes whose nodes are listed.
+        const LISTED: usize = 6;
+        let Analysis { bat, figures, solution, .. } = self.analysis;
+        vec![
+            Part::Table(tables::moves(bat, figures, units)),
+            Part::Heading("Nodes, where a mode is at rest"),
+            Part::List(tables::nodes(bat, solution, LISTED, units)),
+        ]
     }
 
     fn contact(&'a self) -> Vec<Part<'a>> {
@@ -216,26 +222,27 @@ impl<'a> Report<'a> {
     }
 
     fn modes(&'a self, units: Units) -> Vec<Part<'a>> {
-        if self.analysis.solution.modes.is_empty() {
+        let Analysis { bat, solution, .. } = self.analysis;
+        if solution.modes.is_empty() {
             return vec![Part::Missing(NO_MODES)];
         }
-        let freedom = self.analysis.bat.fixtures().freedom();
-        vec![
-            Part::Text(format!("Bending modes, {freedom}.")),
+        let modes = [
             Part::Moving(players::modes(self.analysis)),
             Part::Picture("shapes"),
-            Part::Table(tables::modes(self.analysis, units)),
-        ]
+            Part::Table(tables::modes(bat, solution, units)),
+        ];
+        modes.into_iter().chain(damped::parts(solution)).collect()
     }
 
     /// The hoop modes of a hollow barrel, and the effect of its wall on the ball.
     fn hoop(&'a self, units: Units) -> Vec<Part<'a>> {
+        const MODES: usize = 10;
         let Some(barrel) = &self.analysis.barrel else { return vec![] };
         let bat = &self.analysis.bat;
         let mut parts = vec![
             Part::Moving(players::hoop(barrel)),
             Part::Picture("hoop"),
-            Part::Table(tables::hoop_modes(bat, barrel, units)),
+            Part::Table(tables::hoop_modes(bat, barrel.hoop(), MODES, units)),
             Part::List(hoop::answers(barrel, units)),
         ];
         let notes: Vec<String> =
@@ -249,7 +256,10 @@ impl<'a> Report<'a> {
     }
 
     fn standard(&'a self, units: Units) -> Vec<Part<'a>> {
-        let figures = tables::figures(self.analysis, units);
+        // The wall has a part of the page to itself.
+        let mut solid = self.analysis.figures.clone();
+        solid.wall = None;
+        let figures = tables::figures(&solid, units);
         match figures.rows.is_empty() {
             true => vec![Part::Missing(NOTHING)],
             false => vec![Part::Table(figures)],

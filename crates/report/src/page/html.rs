@@ -8,7 +8,7 @@ use std::fmt::Write;
 use crate::page::figure::Figure;
 use crate::page::players;
 use crate::parts::escape::{html as escaped, script};
-use crate::parts::{Fact, Fold, Input, Part, Section};
+use crate::parts::{Fact, Fold, Input, Part, Section, typeset};
 
 const STYLE: &str = include_str!("style.css");
 const SCRIPT: &str = concat!(include_str!("shared.js"), include_str!("script.js"));
@@ -125,7 +125,7 @@ impl Page<'_> {
     fn written(&self, one: &Part) -> String {
         match one {
             Part::Heading(title) => format!("<h3>{}</h3>\n", escaped(title)),
-            Part::Text(text) => format!("<p>{}</p>\n", escaped(text)),
+            Part::Text(text) => format!("<p>{}</p>\n", escaped(&typeset(text))),
             Part::Missing(why) => format!("<p class=\"missing\">{}</p>\n", escaped(why)),
             Part::List(items) => list(items),
             Part::Facts(class, all) => facts(class, all),
@@ -155,14 +155,14 @@ impl Page<'_> {
 
 fn list(items: &[String]) -> String {
     let items: Vec<String> =
-        items.iter().map(|item| format!("<li>{}</li>\n", escaped(item))).collect();
+        items.iter().map(|item| format!("<li>{}</li>\n", escaped(&typeset(item)))).collect();
     format!("<ul>\n{}</ul>\n", items.concat())
 }
 
 fn facts(class: &str, facts: &[Fact]) -> String {
     let mut out = format!("<dl class=\"{class}\">\n");
     for Fact { key, label, value, note } in facts {
-        let [label, value, note] = [label, value.as_str(), note.as_str()].map(escaped);
+        let [label, value, note] = [*label, value, note].map(|text| escaped(&typeset(text)));
         let note = if note.is_empty() { note } else { format!("<dd class=\"note\">{note}</dd>") };
         let _ =
             writeln!(out, "<div><dt>{label}</dt><dd data-key=\"{key}\">{value}</dd>{note}</div>");

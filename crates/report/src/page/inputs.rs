@@ -3,9 +3,10 @@
 use serde_json::Value;
 
 use crate::analysis::Analysis;
-use crate::page::shown::{self, NONE, length};
+use crate::parts::Quantity::{Inertia, Length, Mass, Speed, Stiffness};
 use crate::parts::{Table, Units};
 use crate::report::resolved::resolved;
+use crate::report::tables::NONE;
 use crate::report::wall_text::by;
 use crate::schema;
 use sweetspot::collision::figures::BarrelSpeed;
@@ -18,12 +19,12 @@ pub fn scene(analysis: &Analysis, units: Units) -> Table {
     let mut line = |(what, value): (&str, String)| table.row([what.to_owned(), value]);
     model(analysis).into_iter().for_each(&mut line);
     swing(analysis, units).into_iter().for_each(&mut line);
-    line(("pitch", units.speed(scene.ball_speed)));
+    line(("pitch", Speed.said(units, scene.ball_speed)));
     ball(scene, units).into_iter().for_each(&mut line);
-    line(("hands feel the hit at", format!("{} from the knob", length(units, scene.hands))));
+    line(("hands feel the hit at", format!("{} from the knob", Length.said(units, scene.hands))));
     if let Some(wall) = scene.wall {
-        line(("the barrel's wall, stiffness", units.stiffness(wall.stiffness)));
-        line(("  its mass", shown::mass(units, wall.mass)));
+        line(("the barrel's wall, stiffness", Stiffness.said(units, wall.stiffness)));
+        line(("  its mass", Mass.said(units, wall.mass)));
     }
     if let Some(wall) = scene.hoop.wall() {
         line(("the barrel's wall gives way", by(wall)));
@@ -42,12 +43,12 @@ fn model(analysis: &Analysis) -> Vec<SceneRow> {
     let mut lines = vec![("model of the collision", model.name().to_owned())];
     match model {
         Model::EnergyLoss(loss) => lines.extend([
-            ("size of the empirical loss, γ", shown::plain(loss.gamma)),
-            ("its decay with the mode, p", shown::plain(loss.decay)),
+            ("size of the empirical loss, γ", plain(loss.gamma)),
+            ("its decay with the mode, p", plain(loss.decay)),
         ]),
         Model::Pulse(pulse) => lines.extend([
-            ("duration of the force", format!("{} ms", shown::digits(1e3 * pulse.duration))),
-            ("share of the vibration that the ball does not lose", shown::plain(pulse.loss_share)),
+            ("duration of the force", format!("{} ms", digits(1e3 * pulse.duration))),
+            ("share of the vibration that the ball does not lose", plain(pulse.loss_share)),
         ]),
         Model::Rigid | Model::Contact => {}
     }
@@ -60,15 +61,15 @@ fn swing(analysis: &Analysis, units: Units) -> Vec<SceneRow> {
     if let Some(law) = analysis.task.law {
         lines.extend([
             ("  of the reference bat", format!("{:.2} rad/s", law.of_reference)),
-            ("  which has a swing weight of", shown::inertia(units, law.reference)),
-            ("  speed against swing weight, exponent", shown::plain(law.exponent)),
+            ("  which has a swing weight of", Inertia.said(units, law.reference)),
+            ("  speed against swing weight, exponent", plain(law.exponent)),
         ]);
     }
     let side = if scene.pivot < 0.0 { "inside" } else { "beyond" };
-    let pivot = length(units, scene.pivot.abs());
+    let pivot = Length.said(units, scene.pivot.abs());
     lines.push(("rotation centre of the swing", format!("{pivot} {side} the knob end")));
     let barrel = BarrelSpeed::of(&analysis.bat, scene, BarrelSpeed::BROADCAST);
-    lines.push(("speed of the bat 6 in from the tip", units.speed(barrel.speed)));
+    lines.push(("speed of the bat 6 in from the tip", Speed.said(units, barrel.speed)));
     lines
 }
 
@@ -76,15 +77,15 @@ fn ball(scene: &Scene, units: Units) -> Vec<SceneRow> {
     let ball = &scene.ball;
     let mut lines = vec![
         ("ball", ball.name.clone()),
-        ("  its mass", shown::mass(units, ball.mass_kg)),
-        ("  its radius", length(units, ball.radius_m)),
+        ("  its mass", Mass.said(units, ball.mass_kg)),
+        ("  its radius", Length.said(units, ball.radius_m)),
     ];
     if let (Some(stiffness), Some(exponent)) = (ball.stiffness, ball.exponent) {
-        let [k, alpha] = [stiffness, exponent].map(shown::plain);
+        let [k, alpha] = [stiffness, exponent].map(plain);
         lines.push(("  its force, k·u^α", format!("k = {k} N/m^α, α = {alpha}")));
     }
     let cor = match ball.cor_by_speed.is_empty() {
-        true => shown::plain(scene.cor),
+        true => plain(scene.cor),
         false => "by its speed, see the ball's file".to_owned(),
     };
     lines.push(("  coefficient of restitution", cor));
@@ -92,6 +93,19 @@ fn ball(scene: &Scene, units: Units) -> Vec<SceneRow> {
         lines.push(("  source", ball.source.clone()));
     }
     lines
+}
+
+/// A value as it was read, with as few digits as needed to read back the same bits.
+fn plain(value: f64) -> String {
+    match value.abs() {
+        0.0 | 1e-3..1e6 => value.to_string(),
+        _ => format!("{value:e}"),
+    }
+}
+
+/// A value with seven digits, without zeros at its end.
+fn digits(value: f64) -> String {
+    plain(format!("{value:.6e}").parse().unwrap_or(value))
 }
 
 /// Longer tables are cut.
@@ -117,8 +131,8 @@ pub fn values(analysis: &Analysis) -> Table {
     }
     let [density, modulus] = analysis.bat.factors();
     if analysis.bat.factors() != [1.0; 2] {
-        table.row(["factor on all densities, as weighed", &shown::plain(density), ""]);
-        table.row(["factor on all moduli, as tapped", &shown::plain(modulus), ""]);
+        table.row(["factor on all densities, as weighed", &plain(density), ""]);
+        table.row(["factor on all moduli, as tapped", &plain(modulus), ""]);
     }
     table
 }
@@ -134,7 +148,7 @@ fn flat(path: &str, value: &Value, table: &mut Table) {
             items.for_each(|(k, item)| flat(&format!("{path}[{k}]"), item, table));
         }
         Value::Number(number) => {
-            let shown = number.as_f64().map_or(number.to_string(), shown::digits);
+            let shown = number.as_f64().map_or(number.to_string(), digits);
             table.row([path, &shown, unit(path)]);
         }
         Value::String(text) => table.row([path, text.as_str(), ""]),
@@ -175,7 +189,7 @@ pub fn profile(analysis: &Analysis) -> Table {
         );
         for piece in &formulas.pieces {
             let bore = piece.inner.as_ref().map_or("none", |inner| inner.text());
-            let [from, to] = [piece.from, piece.to].map(shown::plain);
+            let [from, to] = [piece.from, piece.to].map(plain);
             table.row([&from, &to, piece.outer.text(), bore]);
         }
         return table;

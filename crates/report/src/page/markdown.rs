@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use crate::page::content::Report;
 use crate::parts::escape::{fence, markdown as escaped, markdown_line};
-use crate::parts::{Fact, Input, Part, Section, Table, Units};
+use crate::parts::{Fact, Input, Part, Section, Table, Units, typeset};
 use crate::plot::Picture;
 
 /// Replaces a section in which everything moves or sounds.
@@ -17,7 +17,7 @@ pub fn text(report: &Report, pictures: &str) -> String {
     if !bat.source().is_empty() {
         let _ = writeln!(out, "Source: {}\n", escaped(bat.source()));
     }
-    let units = if report.us { Units::Us } else { Units::Si };
+    let units = Units::one(report.us);
     for Section { title, parts, .. } in report.sections(units) {
         let text: String = parts.iter().map(|one| part(report, one, pictures)).collect();
         let text = if text.is_empty() { MOVES } else { &text };
@@ -29,11 +29,11 @@ pub fn text(report: &Report, pictures: &str) -> String {
 fn part(report: &Report, one: &Part, pictures: &str) -> String {
     match one {
         Part::Heading(title) => format!("### {title}\n\n"),
-        Part::Text(text) => format!("{}\n\n", markdown_line(text)),
+        Part::Text(text) => format!("{}\n\n", markdown_line(&typeset(text))),
         Part::Missing(why) => format!("{}\n\n", markdown_line(why)),
         Part::List(items) => {
             let items: Vec<String> =
-                items.iter().map(|item| format!("- {}\n", markdown_line(item))).collect();
+                items.iter().map(|item| format!("- {}\n", markdown_line(&typeset(item)))).collect();
             format!("{}\n", items.concat())
         }
         Part::Facts(_, facts) => {

@@ -4,9 +4,7 @@
 //! page ([`html`]) and for Markdown ([`markdown`]). The page is one file that fetches nothing and shows both systems of
 //! units. Its script draws the moving parts from the numbers in [`data`]; all other parts work without the script.
 
-pub mod shown;
 pub mod summary;
-pub mod tables;
 pub mod accuracy;
 pub mod inputs;
 pub mod moment;

@@ -6,8 +6,8 @@ use crate::analysis::Analysis;
 use crate::page::barrel::moving;
 use crate::page::data::MOVING;
 use crate::page::moment::Moment;
-use crate::page::shown::decimals;
 use crate::parts::escape::html as escaped;
+use crate::parts::fixed;
 use sweetspot::modes::hoop::HoopMode;
 use sweetspot::motion::sound::Sound;
 use sweetspot_study::trampoline::barrel::Barrel;
@@ -18,7 +18,7 @@ const NO_SCRIPT: &str = "<noscript><p class=\"missing\">What moves here needs Ja
 /// The bat bending in one of its modes.
 pub fn modes(analysis: &Analysis) -> String {
     let modes = analysis.solution.modes.iter().take(MOVING);
-    let names = modes.map(|mode| format!("{} · {} Hz", mode.order, decimals(mode.frequency(), 0)));
+    let names = modes.map(|mode| format!("{} · {} Hz", mode.order, fixed(mode.frequency(), 0)));
     let names: Vec<String> = names.collect();
     let choice = choice("mode", "Mode", &names, 0);
     let note = "The bending is drawn much larger and slower than it is; dots are the nodes, which \
@@ -29,7 +29,7 @@ pub fn modes(analysis: &Analysis) -> String {
 /// The barrel in one of its hoop modes.
 pub fn hoop(barrel: &Barrel) -> String {
     let name = |(_, mode): &(usize, &HoopMode)| {
-        let hertz = decimals(mode.frequency_hz, 0);
+        let hertz = fixed(mode.frequency_hz, 0);
         format!("n {}, m {} · {hertz} Hz", mode.harmonic, mode.order)
     };
     let names: Vec<String> = moving(barrel).iter().map(name).collect();

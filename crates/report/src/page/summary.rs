@@ -4,8 +4,8 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::analysis::Analysis;
-use crate::page::shown::{self, length};
-use crate::parts::{Fact, Units};
+use crate::parts::Quantity::{Frequency, Inertia, Length, Mass, Speed};
+use crate::parts::{Fact, Units, fixed};
 use crate::report::trust::about;
 use sweetspot::bat::body::STANDARD_PIVOT;
 use sweetspot_study::answers::Answer;
@@ -72,19 +72,20 @@ impl Summary {
         else {
             return vec![];
         };
-        let tip = format!("{} from the tip", length(units, self.length_m - x));
+        let tip = format!("{} from the tip", Length.said(units, self.length_m - x));
         let scene = format!(
             "swing {} rad/s, pitch {}",
-            shown::decimals(self.swing_rad_s, 1),
-            units.speed(self.ball_speed_m_s)
+            fixed(self.swing_rad_s, 1),
+            Speed.said(units, self.ball_speed_m_s)
         );
-        let zone = format!("{} to {} from the knob", shown::bare(units, from), length(units, to));
+        let of = Length.scale(units.us_first());
+        let zone = format!("{} to {} from the knob", of.value(from), of.text(to));
         let [tip, scene] = [(tip, Answer::ExitSpeedPlace), (scene, Answer::ExitSpeed)]
             .map(|(note, answer)| with_open(note, about(analysis, answer, units)));
-        let (place, width) = (length(units, x), length(units, to - from));
+        let (place, width) = (Length.said(units, x), Length.said(units, to - from));
         vec![
             fact("sweet_spot_m", "Sweet spot, from the knob", place, tip),
-            fact("exit_speed_m_s", "Fastest ball", units.speed(speed), scene),
+            fact("exit_speed_m_s", "Fastest ball", Speed.said(units, speed), scene),
             fact("zone_m", "Sweet zone, within 1 % of it", width, zone),
         ]
     }
@@ -93,13 +94,13 @@ impl Summary {
     pub fn facts(&self, units: Units, analysis: &Analysis) -> Vec<Fact> {
         let mut facts = self.body(units, analysis);
         if let Some((first, others)) = self.frequencies_hz.split_first() {
-            let others: Vec<String> = others.iter().map(|f| shown::decimals(*f, 1)).collect();
+            let others: Vec<String> = others.iter().map(|f| fixed(*f, 1)).collect();
             let note = match others.is_empty() {
                 true => String::new(),
                 false => format!("then {} Hz", others.join(" and ")),
             };
             let note = with_open(note, about(analysis, Answer::Frequency(1), units));
-            let value = format!("{} Hz", shown::decimals(*first, 1));
+            let value = Frequency.said(units, *first);
             facts.push(fact("frequencies_hz", "First bending frequency", value, note));
         }
         if let (Some(free), Some(held)) = (self.bbcor, self.bbcor_pivoted) {
@@ -111,23 +112,23 @@ impl Summary {
 
     /// The bat as a rigid body.
     fn body(&self, units: Units, analysis: &Analysis) -> Vec<Fact> {
-        let from_tip = |x: f64| format!("{} from the tip", length(units, self.length_m - x));
+        let from_tip = |x: f64| format!("{} from the tip", Length.said(units, self.length_m - x));
         let (balance, weight) = (self.balance_point_m, self.inertia_pivot_kg_m2);
-        let along = |x: f64| length(units, x);
+        let along = |x: f64| Length.said(units, x);
         let open = |answer: Answer| about(analysis, answer, units);
         let mut facts = vec![
             fact("length_m", "Length", along(self.length_m), String::new()),
             fact(
                 "mass_kg",
                 "Mass",
-                shown::mass(units, self.mass_kg),
+                Mass.said(units, self.mass_kg),
                 with_open(String::new(), open(Answer::Mass)),
             ),
             fact("balance_point_m", "Balance point", along(balance), from_tip(balance)),
             fact(
                 "inertia_pivot_kg_m2",
                 "Swing weight",
-                shown::inertia(units, weight),
+                Inertia.said(units, weight),
                 with_open("about 6 in from the knob".to_owned(), open(Answer::Inertia)),
             ),
         ];

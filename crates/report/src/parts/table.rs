@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use crate::parts::cell::{Cell, Quantity};
 use crate::parts::escape;
+use crate::parts::typeset::typeset;
 use crate::parts::units::Units;
 
 /// A column of a table whose rows are of type `T`.
@@ -83,7 +84,7 @@ impl Table {
             }
             for us in if column.both { units.pick(false, true) } else { vec![units.us_first()] } {
                 table.head.push(column.head.to_owned());
-                table.units.push(column.quantity.unit(us));
+                table.units.push(column.quantity.scale(us).name);
                 let shown = cells.iter().map(|cell| column.quantity.shown(cell, us));
                 table.rows.iter_mut().zip(shown).for_each(|(row, cell)| row.push(cell));
             }
@@ -134,14 +135,14 @@ impl Table {
              <table class=\"{kind}\">\n<caption>{caption}</caption>\n<thead><tr>"
         );
         for cell in &self.heads() {
-            let _ = write!(out, "<th scope=\"col\">{}</th>", escape::html(cell));
+            let _ = write!(out, "<th scope=\"col\">{}</th>", escape::html(&typeset(cell)));
         }
         out += "</tr></thead>\n<tbody>\n";
         for row in &self.rows {
             out += "<tr>";
             for (k, cell) in row.iter().enumerate() {
                 let (tag, scope) = if k == 0 { ("th", " scope=\"row\"") } else { ("td", "") };
-                let _ = write!(out, "<{tag}{scope}>{}</{tag}>", escape::html(cell));
+                let _ = write!(out, "<{tag}{scope}>{}</{tag}>", escape::html(&typeset(cell)));
             }
             out += "</tr>\n";
         }
@@ -154,7 +155,8 @@ impl Table {
             return String::new();
         }
         let line = |cells: &[String]| {
-            let cells: Vec<String> = cells.iter().map(|cell| escape::markdown(cell)).collect();
+            let cells: Vec<String> =
+                cells.iter().map(|cell| escape::markdown(&typeset(cell))).collect();
             format!("| {} |\n", cells.join(" | "))
         };
         let rule: Vec<&str> = (0..self.head.len())

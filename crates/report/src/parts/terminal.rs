@@ -2,24 +2,28 @@
 
 use std::cmp::Reverse;
 use std::fmt::Write;
+use std::slice;
 
 use crate::parts::columns::{Columns, WIDE, labels, numbers};
 use crate::parts::part::{Fact, Part};
 use crate::parts::table::Table;
 
 /// A title and what follows it.
-pub fn text(title: &str, parts: &[Part]) -> String {
-    let mut out = wrapped(title, 2);
+pub fn text(title: &str, all: &[Part]) -> String {
+    wrapped(title, 2) + &parts(all)
+}
+
+/// Parts one below the other.
+pub fn parts(all: &[Part]) -> String {
+    let mut out = String::new();
     let mut told = false;
-    for part in parts {
+    for part in all {
         // Sentences are separated from what is above them.
         let tells = matches!(part, Part::Text(_) | Part::Missing(_));
         out += if tells && !told { "\n" } else { "" };
         told = tells;
         match part {
-            Part::Heading(title) => {
-                let _ = write!(out, "\n{title}\n");
-            }
+            Part::Heading(title) => out += &format!("\n{title}\n"),
             Part::Text(text) => out += &wrapped(text, 0),
             Part::Missing(why) => out += &wrapped(why, 0),
             Part::List(items) => {
@@ -40,22 +44,50 @@ fn line(Fact { label, value, note, .. }: &Fact) -> String {
     wrapped(format!("  {label:<38} {value}  {note}").trim_end(), 41)
 }
 
-/// An empty line, the heads and their units, the rows: numbers end where their heads do.
+/// An empty line and the caption, the heads and their units, the rows: numbers end where their heads do. The words of heads
+/// stand one below the other where they would be too wide in a line. Empty without rows.
 fn table(table: &Table) -> String {
-    let units = table.units.iter().map(|unit| (*unit).to_owned()).collect::<Vec<_>>();
-    let above =
-        [&table.head, &units].into_iter().filter(|line| line.iter().any(|cell| !cell.is_empty()));
-    let lines: Vec<&Vec<String>> = above.chain(&table.rows).collect();
-    let long = |cell: Option<&String>| cell.map_or(0, |cell| cell.chars().count());
-    let width = |k: usize| lines.iter().map(|line| long(line.get(k))).max().unwrap_or(0);
-    let is_number =
-        |k: usize| !table.rows.iter().any(|row| row[k].starts_with(char::is_alphabetic));
-    let columns = (0..table.head.len()).map(|k| match is_number(k) {
-        true => numbers(width(k) + 2, ""),
-        false => labels(width(k), ""),
-    });
-    let columns = Columns::new(columns);
-    lines.iter().fold("\n".to_owned(), |out, line| out + &columns.row(*line))
+    if table.rows.is_empty() {
+        return String::new();
+    }
+    let units: Vec<String> = table.units.iter().map(|unit| (*unit).to_owned()).collect();
+    let lines = |heads: &[Vec<String>]| -> Vec<Vec<String>> {
+        let above = heads.iter().chain([&units]);
+        let above = above.filter(|line| line.iter().any(|cell| !cell.is_empty()));
+        above.chain(&table.rows).cloned().collect()
+    };
+    let width = |lines: &[Vec<String>], k: usize| {
+        let cells = lines.iter().filter_map(|line| line.get(k));
+        cells.map(|cell| cell.chars().count()).max().unwrap_or(0)
+    };
+    let count = table.head.len();
+    let mut all = lines(slice::from_ref(&table.head));
+    if (0..count).map(|k| width(&all, k) + 2).sum::<usize>() > WIDE {
+        all = lines(&stacked(&table.head));
+    }
+    let word =
+        |cell: &String| cell.is_empty() || cell.trim_start().starts_with(char::is_alphabetic);
+    let words = |k: usize| table.words || table.rows.iter().all(|row| word(&row[k]));
+    let column = |k: usize| match words(k) {
+        true => labels(width(&all, k), ""),
+        false => numbers(width(&all, k) + 2, ""),
+    };
+    let columns = Columns::new((0..count).map(column));
+    let caption = match &*table.caption {
+        "" => String::new(),
+        caption => "\n".to_owned() + &wrapped(caption, 2),
+    };
+    all.iter().fold(caption, |out, line| out + &columns.row(line))
+}
+
+/// The words of heads, the last ones in the last line.
+fn stacked(heads: &[String]) -> Vec<Vec<String>> {
+    let words: Vec<Vec<&str>> = heads.iter().map(|head| head.split(' ').collect()).collect();
+    let most = words.iter().map(Vec::len).max().unwrap_or(0);
+    let word = |words: &Vec<&str>, k: usize| {
+        (k + words.len()).checked_sub(most).map_or(String::new(), |k| words[k].to_owned())
+    };
+    (0..most).map(|k| words.iter().map(|words| word(words, k)).collect()).collect()
 }
 
 /// Number of lines of a screen, and of the screens of the verbs with tables along the bat or by mode.

@@ -1,16 +1,14 @@
 //! The bat coloured by the effect of a cut at each place, with a strip for each output.
 
-use crate::parts::in_trade;
+use crate::parts::Units;
 use crate::plot::profile::widest;
 use crate::plot::{
     Anchor, Chart, FRAME, Frame, Ink, LABEL, Lying, Panel, Pen, Picture, SERIES, SMALL, Sheet, Svg,
-    digits, fitted, place,
+    fitted, place,
 };
+use crate::report::lathe_table::{LatheOutput, TableUnits, outputs};
 use sweetspot::Bat;
-use sweetspot::base::number::signed;
-use sweetspot::base::units::{inches, miles_per_hour, ounce_square_inches, ounces};
 use sweetspot::bat::profile::Section;
-use sweetspot_study::answers::Answer;
 use sweetspot_study::lathe::found::TurnedBand;
 use sweetspot_study::lathe::map::LatheMap;
 
@@ -23,28 +21,27 @@ const OUTLINE: usize = 40;
 const MOST_TOLD: usize = 70;
 /// Opacity of the largest change of a strip.
 const FULL: f64 = 0.85;
-/// Unit of the changes: a millimetre of diameter in SI, and 1/32 inch in US units.
-const MM: f64 = 1e-3;
-const THIRTY_SECOND: f64 = 0.0254 / 32.0;
 
-/// A strip: name, unit, number of units per SI unit, and the change per metre for a band.
+/// A strip: an output, and its change for a cut at each band.
 struct Strip {
-    name: String,
-    unit: &'static str,
-    scale: f64,
-    decimals: i32,
+    output: LatheOutput,
     changes: Vec<Option<f64>>,
 }
 
 /// The strips of the bat; picture `lathe`. None where no band has a change to show.
 pub fn picture(sheet: Sheet, map: &LatheMap) -> Option<Picture> {
-    let strips = strips(sheet, map);
+    let bat = map.piece.bat();
+    let units = TableUnits::of(Units::one(sheet.us), bat);
+    let strip = |output: LatheOutput| {
+        let changes = output.changes(map, TurnedBand::derivative);
+        changes.iter().any(Option::is_some).then_some(Strip { output, changes })
+    };
+    let strips: Vec<Strip> = outputs(map, units).into_iter().filter_map(strip).collect();
     if strips.is_empty() {
         return None;
     }
-    let bat = map.piece.bat();
     let (name, length) = (bat.name(), bat.length());
-    let per = if sheet.us { "1/32 in" } else { "mm" };
+    let per = units.per_name();
     let facts = format!("per {per} taken off the diameter there; blue rises, red falls");
     let each = WORDS + BAT + 9.0;
     let per_metre = 0.5 * BAT / widest(bat);
@@ -127,56 +124,19 @@ impl Strip {
         let [low, high] = all.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], change| {
             [low.min(*change), high.max(*change)]
         });
-        let [low, high] = [low, high].map(|value| self.shown(value));
-        format!("{}: {low} to {high} {}", self.name, self.unit).trim_end().to_owned()
+        format!("{}: {} to {}", self.output.name, self.shown(low), self.text(high))
     }
 
     fn shown(&self, change: f64) -> String {
-        let value = self.scale * change;
-        match self.decimals {
-            0.. => signed(value, self.decimals as usize).replace('-', "−"),
-            _ => digits(value, 3),
-        }
+        self.output.signed(change).replace('-', "−")
+    }
+
+    fn text(&self, change: f64) -> String {
+        format!("{} {}", self.shown(change), self.output.scale.name)
     }
 
     fn of(&self, sheet: Sheet, band: &TurnedBand, change: f64) -> String {
         let [from, to] = band.ends().map(|x| place::along(sheet, x));
-        format!("{}, {from} to {to}: {} {}", self.name, self.shown(change), self.unit)
+        format!("{}, {from} to {to}: {}", self.output.name, self.text(change))
     }
-}
-
-/// The strips of the outputs.
-fn strips(sheet: Sheet, map: &LatheMap) -> Vec<Strip> {
-    let us = sheet.us;
-    let per = if us { THIRTY_SECOND } else { MM };
-    let answers = &map.terms.answers;
-    let mut all = vec![];
-    let mut add = |answer: Answer, name: &str, unit: (&'static str, f64, i32), exponent: f64| {
-        let of = |band: &TurnedBand| band.derivative(answer, exponent).map(|change| change / MM);
-        let changes: Vec<Option<f64>> = map.found.bands.iter().map(of).collect();
-        if changes.iter().any(Option::is_some) {
-            let (unit, scale, decimals) = (unit.0, unit.1 * per, unit.2);
-            all.push(Strip { name: name.to_owned(), unit, scale, decimals, changes });
-        }
-    };
-    let length = if us { ("in", inches(1.0), 4) } else { ("mm", 1e3, 2) };
-    let speed = if us { ("mph", miles_per_hour(1.0), 3) } else { ("m/s", 1.0, 3) };
-    let inertia = if us { ("oz in²", ounce_square_inches(1.0), 1) } else { ("kg cm²", 1e4, 2) };
-    add(Answer::Mass, "mass", if us { ("oz", ounces(1.0), 3) } else { ("g", 1e3, 2) }, 0.0);
-    add(Answer::Inertia, "swing weight", inertia, 0.0);
-    add(Answer::Frequency(1), "frequency of mode 1", ("Hz", 1.0, 2), 0.0);
-    add(Answer::Frequency(2), "frequency of mode 2", ("Hz", 1.0, 2), 0.0);
-    add(Answer::Node(1), "node of mode 1, outward", length, 0.0);
-    add(Answer::ExitSpeedPlace, "sweet spot, outward", length, 0.0);
-    add(Answer::ExitSpeed, "fastest ball, same swing", speed, 0.0);
-    if let Some(own) = map.terms.exponents().get(2) {
-        add(Answer::ExitSpeed, &format!("fastest ball, swing law n = {own}"), speed, *own);
-    }
-    add(Answer::ExitSpeed, "fastest ball, same energy of the swing", speed, 0.5);
-    let hands = answers.iter().copied().find(|a| matches!(a, Answer::HandsAccelerationAt(_)));
-    if let Some(answer) = hands {
-        let (unit, per) = in_trade("m/s²", us);
-        add(answer, "acceleration that the hands feel", (unit, per, 0), 0.0);
-    }
-    all
 }

@@ -5,7 +5,9 @@ use crate::plot::{
     Axis, Chart, MARKS, Panel, Picture, SERIES, Series, Sheet, Unit, along, heights, short,
     ticks_up,
 };
-use sweetspot::collision::aftermath::{Aftermath, Line, Strained};
+use crate::schema::ring::{AfterHit, Motion};
+use sweetspot::base::units::INCH;
+use sweetspot::collision::aftermath::{Aftermath, Line, Watched};
 
 /// Heights of a diagram of motion and of a single diagram (px).
 const MOTION: f64 = 130.0;
@@ -16,31 +18,20 @@ const IN_ALL: usize = 3600;
 /// Most curves in one picture; more cannot be distinguished.
 const MOST: usize = 6;
 
-/// A bat after a hit, with the watched quantities.
-pub struct AfterHit<'a> {
-    /// Name of the bat.
-    pub bat: &'a str,
-    /// Its length (m).
-    pub length: f64,
-    /// The bat under the ball's force.
-    pub after: &'a Aftermath<'a>,
-    /// Watched places (m) with the vibration of the modes there.
-    pub watched: Vec<(f64, &'a [Line])>,
-    /// End of the time shown (s).
-    pub until: f64,
-    /// The largest strain of every place.
-    pub envelope: &'a [Strained],
-    /// Whether the bat is damped; without damping its vibration has no end.
-    pub damped: bool,
+/// `motion` and `spectrum` of the first six watched places, and `strain` along the bat, which is under the ball's force.
+pub fn after_hit(sheet: Sheet, after: &Aftermath, seen: &AfterHit) -> Vec<Picture> {
+    let all = AfterBall { after, seen, bat: after.bat().name() };
+    [all.motion(sheet), all.spectrum(sheet), all.strain(sheet)].into_iter().flatten().collect()
 }
 
-impl AfterHit<'_> {
-    /// `motion` and `spectrum` of the first six watched places, and `strain` along the bat.
-    pub fn pictures(&self, sheet: Sheet) -> Vec<Picture> {
-        let all = [self.motion(sheet), self.spectrum(sheet), self.strain(sheet)];
-        all.into_iter().flatten().collect()
-    }
+/// A bat after a hit, its motion, and its name.
+struct AfterBall<'a> {
+    after: &'a Aftermath<'a>,
+    seen: &'a AfterHit,
+    bat: &'a str,
+}
 
+impl AfterBall<'_> {
     fn facts(&self, sheet: Sheet) -> String {
         format!("hit at {} from the knob end", along(sheet, self.after.place))
     }
@@ -51,28 +42,31 @@ impl AfterHit<'_> {
 
     /// Displacement, velocity and, of a damped bat, acceleration against time.
     fn motion(&self, sheet: Sheet) -> Option<Picture> {
-        if self.until <= 0.0 || self.watched.is_empty() {
+        if self.seen.until <= 0.0 || self.seen.watched.is_empty() {
             return None;
         }
-        let curves = self.watched.len().min(MOST) * if self.damped { 3 } else { 2 };
+        let curves = self.seen.watched.len().min(MOST) * if self.seen.damped { 3 } else { 2 };
         let last = INSTANTS.min(IN_ALL / curves);
-        let times: Vec<f64> = (0..=last).map(|k| self.until * k as f64 / last as f64).collect();
+        let times: Vec<f64> =
+            (0..=last).map(|k| self.seen.until * k as f64 / last as f64).collect();
         let instants = self.after.at(&times);
+        let (name, per) =
+            if sheet.us { ("kft/s²", 1e-3 / (12.0 * INCH)) } else { ("km/s²", 1e-3) };
+        let shaken = Unit { name, per };
         let kinds = [("displacement", sheet.small()), ("velocity", sheet.speed())];
-        let kinds =
-            kinds.into_iter().chain(self.damped.then_some(("acceleration", sheet.acceleration())));
+        let kinds = kinds.into_iter().chain(self.seen.damped.then_some(("acceleration", shaken)));
         let kinds: Vec<(&str, Unit)> = kinds.collect();
         let curves = |kind: usize| -> Vec<Series> {
-            let curve = |(k, (x, _)): (usize, &(f64, &[Line]))| {
-                let value = |now| self.after.motion(*x, now)[kind];
+            let curve = |(k, Watched { x_m, .. }): (usize, &Watched)| {
+                let value = |now| self.after.motion(*x_m, now)[kind];
                 let points = instants.iter().map(|now| Some([1e3 * now.time, value(now)]));
-                Series::curve(&Self::name(sheet, *x), k, points.collect())
+                Series::curve(&Self::name(sheet, *x_m), k, points.collect())
             };
-            self.watched.iter().take(MOST).enumerate().map(curve).collect()
+            self.seen.watched.iter().take(MOST).enumerate().map(curve).collect()
         };
         let title = "Motion after the hit";
         let facts = format!("{}; against the swing; tinted: the ball is there", self.facts(sheet));
-        let x = Axis::new("time since the first touch", [0.0, 1e3 * self.until]);
+        let x = Axis::new("time since the first touch", [0.0, 1e3 * self.seen.until]);
         let chart = Chart::new("motion", title, [self.bat, &facts], x.counted_in(Unit::MS));
         let mut chart = chart.keys(&curves(0));
         let mut told = vec![];
@@ -89,7 +83,7 @@ impl AfterHit<'_> {
     /// Velocity of every mode at the watched places after the contact, a line each.
     fn spectrum(&self, sheet: Sheet) -> Option<Picture> {
         let unit = sheet.speed();
-        let lines = || self.watched.iter().take(MOST).flat_map(|(_, lines)| lines.iter());
+        let lines = || self.seen.watched.iter().take(MOST).flat_map(|seen| seen.spectrum.iter());
         let highest = lines().map(|line| line.frequency_hz).fold(0.0, f64::max);
         let largest = lines().map(|line| line.velocity_m_s).fold(0.0, f64::max);
         // The visible lines.
@@ -98,16 +92,17 @@ impl AfterHit<'_> {
         if end <= 0.0 || largest <= 0.0 {
             return None;
         }
-        let curve = |(k, (x, lines)): (usize, &(f64, &[Line]))| {
+        let curve = |(k, Watched { x_m, spectrum, .. }): (usize, &Watched)| {
             let stem = |line: &Line| {
                 let (f, size) = (line.frequency_hz, line.velocity_m_s);
                 [Some([f, 0.0]), Some([f, size]), None]
             };
             let points =
-                lines.iter().filter(|line| line.frequency_hz <= end).flat_map(stem).collect();
-            Series::curve(&Self::name(sheet, *x), k, points)
+                spectrum.iter().filter(|line| line.frequency_hz <= end).flat_map(stem).collect();
+            Series::curve(&Self::name(sheet, *x_m), k, points)
         };
-        let stems: Vec<Series> = self.watched.iter().take(MOST).enumerate().map(curve).collect();
+        let stems: Vec<Series> =
+            self.seen.watched.iter().take(MOST).enumerate().map(curve).collect();
         // Coinciding lines are distinguished by the marks at their ends.
         let ends = |(k, stems): (usize, &Series)| {
             let points = stems.points.iter().skip(1).step_by(3).copied().collect();
@@ -135,8 +130,8 @@ impl AfterHit<'_> {
 
     /// The largest strain of the surface at every place.
     fn strain(&self, sheet: Sheet) -> Option<Picture> {
-        let points: Vec<_> = self.envelope.iter().map(|at| Some([at.x_m, at.strain])).collect();
-        let most = self.envelope.iter().max_by(|a, b| a.strain.total_cmp(&b.strain))?;
+        let points: Vec<_> = self.seen.along.iter().map(|at| Some([at.x_m, at.strain])).collect();
+        let most = self.seen.along.iter().max_by(|a, b| a.strain.total_cmp(&b.strain))?;
         if most.strain <= 0.0 {
             return None;
         }
@@ -145,7 +140,8 @@ impl AfterHit<'_> {
         let facts = format!("{}; at the outermost fibre", self.facts(sheet));
         let [at, size] = [along(sheet, most.x_m), short(share.per * most.strain)];
         let alt = format!("{title} of {}, {facts}: {size} % at {at}.", self.bat);
-        let ends = ([0.0, self.length], &[(self.bat, self.length)][..]);
+        let length = self.after.bat().length();
+        let ends = ([0.0, length], &[(self.bat, length)][..]);
         let chart = Chart::along(sheet, ("strain", title), [self.bat, &facts], ends);
         let curves = vec![Series::curve("largest strain", 0, points)];
         let panel = Panel::around(ALONE, ("strain", share), curves, &[0.0]).zero();
@@ -159,22 +155,9 @@ fn most(curves: &[Series], unit: Unit) -> String {
     format!("{} {}", short(most), unit.name)
 }
 
-/// A bat that moves, instant by instant.
-#[derive(Debug, Clone, Copy)]
-pub struct Moving<'a> {
-    /// Name of the bat.
-    pub bat: &'a str,
-    /// Places (m), rising from end to end.
-    pub x: &'a [f64],
-    /// Instants (s).
-    pub times: &'a [f64],
-    /// Deflection at every instant, at every place (m).
-    pub frames: &'a [Vec<f64>],
-}
-
 /// The deflected bat at some of the instants, six at most; picture `deflection`. None without one.
-pub fn moving(sheet: Sheet, subject: &Moving) -> Option<Picture> {
-    let Moving { bat, x, times, frames } = *subject;
+pub fn moving(sheet: Sheet, bat: &str, motion: &Motion) -> Option<Picture> {
+    let Motion { x_m: x, times_s: times, deflection_m: frames, .. } = motion;
     let length = *x.last()?;
     let count = frames.len().min(MOST);
     let last = frames.len().checked_sub(1)?;

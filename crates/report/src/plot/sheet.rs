@@ -1,6 +1,6 @@
 //! The sheet of a picture: the units and the available room.
 
-use sweetspot::base::units::{FOOT, FOOT_POUND, POUND_FORCE, inches, miles_per_hour};
+use crate::parts::{Quantity, Scale};
 use sweetspot::bat::body::Bat;
 
 /// A unit of an axis: its name, and its number per SI unit.
@@ -53,40 +53,34 @@ impl Sheet {
         Self::file(bat.inches())
     }
 
-    /// The unit of that name and number per SI unit, in SI or in US units.
-    fn unit(self, si: (&'static str, f64), us: (&'static str, f64)) -> Unit {
-        let (name, per) = if self.us { us } else { si };
+    fn unit(self, quantity: Quantity) -> Unit {
+        let Scale { name, per, .. } = quantity.scale(self.us);
         Unit { name, per }
     }
 
     /// Lengths along and across a bat.
     pub fn length(self) -> Unit {
-        self.unit(("cm", 100.0), ("in", inches(1.0)))
+        self.unit(Quantity::Length)
     }
 
     /// The unit of small lengths, such as the compression of a ball.
     pub fn small(self) -> Unit {
-        self.unit(("mm", 1e3), ("in", inches(1.0)))
+        self.unit(Quantity::Small)
     }
 
     /// Forces.
     pub fn force(self) -> Unit {
-        self.unit(("kN", 1e-3), ("lbf", 1.0 / POUND_FORCE))
+        self.unit(Quantity::Force)
     }
 
     /// Speeds.
     pub fn speed(self) -> Unit {
-        self.unit(("m/s", 1.0), ("mph", miles_per_hour(1.0)))
-    }
-
-    /// Accelerations.
-    pub fn acceleration(self) -> Unit {
-        self.unit(("km/s²", 1e-3), ("kft/s²", 1e-3 / FOOT))
+        self.unit(Quantity::Speed)
     }
 
     /// Energies.
     pub fn energy(self) -> Unit {
-        self.unit(("J", 1.0), ("ft·lbf", 1.0 / FOOT_POUND))
+        self.unit(Quantity::Energy)
     }
 
     /// Whether it is as narrow as a telephone.

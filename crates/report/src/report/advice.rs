@@ -3,11 +3,11 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::parts::{Part, Table, Units, wrapped};
+use crate::parts::{Part, Quantity, Scale, Table, Units, wrapped};
 use crate::report::edits;
+use crate::report::text::theory;
 use crate::schema::{Written, document};
-use sweetspot::Theory;
-use sweetspot::base::units::{inches, ounce_square_inches, ounces};
+use sweetspot::base::number::signed;
 use sweetspot::files::schema::document::BatName;
 use sweetspot_study::advise::advice::Advice;
 use sweetspot_study::advise::effect::{Effect, Switch};
@@ -109,23 +109,22 @@ fn tables(modes: usize, rows: &[ModeRow]) -> Vec<Part<'static>> {
 
 /// The shift of the nodes by each part.
 fn nodes(advice: &Advice, units: Units) -> Vec<Part<'static>> {
-    let cm = (100.0, "Nodes: the one that each part moves most, towards the tip, cm");
-    let inch = (inches(1.0), "Nodes: the one that each part moves most, towards the tip, in");
-    let table = |(scale, title): (f64, &'static str)| {
+    let cm = "Nodes: the one that each part moves most, towards the tip, cm";
+    let inch = "Nodes: the one that each part moves most, towards the tip, in";
+    let table = |(us, title): (bool, &'static str)| {
+        let Scale { per, decimals, .. } = Quantity::Length.scale(us);
         let rows = by_effect(advice, |effect, k| {
             let nodes = effect.node_shift_m_by_mode.as_ref()?[k].as_ref()?;
             nodes.first()?;
             // A symmetric bat moves several nodes equally far; of these the one next to the knob is taken.
-            let most = scale
-                * nodes.iter().fold(0.0, |most: f64, moved| {
-                    if moved.abs() > (1.0 + 1e-6) * most.abs() { *moved } else { most }
-                });
-            // A value rounded to zero has no sign.
-            Some(if most.abs() < 5e-3 { "0.00".to_owned() } else { format!("{most:+.2}") })
+            let most = nodes.iter().fold(0.0, |most: f64, moved| {
+                if moved.abs() > (1.0 + 1e-6) * most.abs() { *moved } else { most }
+            });
+            Some(signed(per * most, decimals))
         });
         [vec![Part::Heading(title)], tables(advice.modes, &rows)].concat()
     };
-    units.pick(cm, inch).into_iter().flat_map(table).collect()
+    units.pick((false, cm), (true, inch)).into_iter().flat_map(table).collect()
 }
 
 /// A few lines of it, for a page about the whole analysis.
@@ -194,23 +193,15 @@ fn bodies(advice: &Advice, units: Units) -> Vec<Part<'static>> {
         let Effect { mass_kg: mass, balance_point_m: balance, inertia_pivot_kg_m2: swing, .. } =
             *effect;
         let changes = [
-            (mass, "mass", format!("{mass:+.4} kg"), format!("{:+.2} oz", ounces(mass))),
-            (
-                balance,
-                "balance point",
-                format!("{balance:+.4} m"),
-                format!("{:+.2} in", inches(balance)),
-            ),
-            (
-                swing,
-                "swing weight",
-                format!("{swing:+.5} kg m²"),
-                format!("{:+.0} oz in²", ounce_square_inches(swing)),
-            ),
+            (mass, "mass", Quantity::Mass),
+            (balance, "balance point", Quantity::Length),
+            (swing, "swing weight", Quantity::Inertia),
         ];
         let changes = changes.into_iter().filter(|(value, ..)| *value != 0.0);
-        let changes: Vec<String> =
-            changes.map(|(_, what, si, us)| format!("{what} {}", units.beside(si, us))).collect();
+        let said = |(value, what, quantity): (f64, &str, Quantity)| {
+            format!("{what} {}", quantity.in_both(units, |scale| scale.change(value)))
+        };
+        let changes: Vec<String> = changes.map(said).collect();
         (!changes.is_empty()).then(|| format!("{}: {}", effect.switch.name(), changes.join(", ")))
     };
     let effects = advice.effects.iter().filter(|effect| effect.switch != Switch::Theory);
@@ -269,11 +260,7 @@ fn two_digits(value: f64) -> String {
 
 /// A model in words.
 fn model(model: &Model) -> String {
-    let theory = match model.theory {
-        Theory::EulerBernoulli | Theory::Auto => "Euler-Bernoulli",
-        Theory::Rayleigh => "Rayleigh (rotary inertia)",
-        Theory::Timoshenko => "Timoshenko (rotary inertia, shear)",
-    };
+    let theory = theory(model.theory);
     let parts: Vec<&str> = model.parts.iter().map(|part| part.name()).collect();
     match parts.is_empty() {
         true => theory.to_owned(),

@@ -3,35 +3,15 @@
 use std::fmt::Write;
 
 use crate::csv::Csv;
-use crate::parts::{Cell, Columns, Units, in_trade, numbers, wrapped};
+use crate::parts::{Cell, Columns, Quantity, Units, numbers, wrapped};
+use crate::schema::Written;
 use crate::schema::hit::Impact;
-use crate::schema::{Written, ring as file};
+use crate::schema::ring::{AfterHit, RingFile, Struck};
 use sweetspot::Bat;
-use sweetspot::base::units::{gravities, inches, miles_per_hour};
-use sweetspot::collision::aftermath::{Aftermath, Instant, PeakMotion, Strained, Watched};
+use sweetspot::base::units::gravities;
+use sweetspot::collision::aftermath::{Aftermath, PeakMotion, Watched};
 use sweetspot::collision::hit;
 use sweetspot::collision::strength::{Limit, Load, Strength, nearest};
-
-/// The reported effects of a hit.
-pub struct AfterHit {
-    /// End of the time considered (s).
-    pub until: f64,
-    /// The motion at the watched places.
-    pub watched: Vec<Watched>,
-    /// The largest strain while the ball is there.
-    pub during: Option<Strained>,
-    /// The largest strain of the whole time.
-    pub after: Option<Strained>,
-    /// The largest strain of every place in the whole time.
-    pub envelope: Vec<Strained>,
-    /// The largest load relative to each known strength of the materials.
-    pub loads: Vec<Load>,
-    /// Whether the bat is damped; without damping its vibration has no end, and no size that a hand feels.
-    pub damped: bool,
-    /// Relative change of the largest strain when a quarter of the modes is omitted.
-    pub strain_error: f64,
-    instants: Vec<Instant>,
-}
 
 /// Number of points along the bat at which strain is computed.
 const PLACES: usize = 200;
@@ -62,15 +42,20 @@ impl AfterHit {
         let fewer = after.worst(&places, &instants, all - all / 4);
         let change = whole.zip(fewer).map(|(a, b)| (b.strain / a.strain - 1.0).abs());
         Self {
-            until,
+            edits: bat.edits().to_vec(),
+            modes: all,
+            at_m: after.place,
+            contact_s: end,
+            times_s: instants.iter().map(|now| now.time).collect(),
+            force_n: instants.iter().map(|now| now.force).collect(),
             watched: watched.iter().map(|x| after.watched(*x, &instants)).collect(),
-            during,
-            after: whole,
-            envelope,
-            loads,
-            damped: bat.damped(),
+            strain_max_in_contact: during,
+            strain_max: whole,
             strain_error: change.filter(|change| change.is_finite()).unwrap_or(1.0),
-            instants,
+            along: envelope,
+            strength: loads,
+            until,
+            damped: bat.damped(),
         }
     }
 }
@@ -80,10 +65,10 @@ pub fn impact(impact: &hit::Impact, end: f64, units: Units) -> String {
     let Some(outcome) = &impact.outcome else { return String::new() };
     format!(
         "     at {}\n     the ball leaves at {}, after {:.2} ms, {} at most\n",
-        units.place(impact.x, 2),
-        units.inline(units.speed(outcome.exit_speed)),
+        Quantity::Length.said(units, impact.x),
+        Quantity::Speed.said(units, outcome.exit_speed),
         1e3 * end,
-        units.force(outcome.peak_force.unwrap_or(0.0), 1)
+        Quantity::Force.said(units, outcome.peak_force.unwrap_or(0.0))
     )
 }
 
@@ -98,7 +83,8 @@ pub fn text(bat: &Bat, report: &AfterHit, units: Units, full: bool) -> String {
         out += &motion(seen, report.damped, units);
     }
     if !full {
-        let strains = if report.loads.is_empty() { strains(report, units) } else { String::new() };
+        let strains =
+            if report.strength.is_empty() { strains(report, units) } else { String::new() };
         return (out + &strains + &strength(bat, report, units)).replace("\n\n", "\n");
     }
     out += &strains(report, units);
@@ -114,22 +100,17 @@ pub fn text(bat: &Bat, report: &AfterHit, units: Units, full: bool) -> String {
 fn motion(seen: &Watched, damped: bool, units: Units) -> String {
     let PeakMotion { displacement_m: most, velocity_m_s: speed, acceleration_m_s2 } = seen.peak;
     let [a, b, c] = seen.when.map(|t| format!("at {:.2} ms", 1e3 * t));
-    let (place, begins) = (units.place(seen.x_m, 2), 1e3 * seen.begins_s);
+    let (place, begins) = (Quantity::Length.said(units, seen.x_m), 1e3 * seen.begins_s);
     let mut out = format!("  at {place}, which begins to move after {begins:.2} ms\n");
     let mut line = |what: &str, size: String, when: String| {
         let _ = writeln!(out, "{}", format!("    {what:<36} {size} {when}").trim_end());
     };
-    let moved = units.show(format!("{:.2} mm", 1e3 * most), format!("{:.3} in", inches(most)));
+    let moved = Quantity::Small.in_both(units, |scale| scale.finer().text(most));
     let growing = seen.displacement_m.last().is_some_and(|last| last.abs() >= most);
-    line(
-        "largest displacement",
-        units.inline(moved),
-        if growing { "and growing".into() } else { a },
-    );
-    line("largest velocity", units.inline(units.speed(speed)), b);
-    let (unit, per) = in_trade("m/s²", units.us_first());
-    let [shaken, g] = [per * acceleration_m_s2, gravities(acceleration_m_s2)];
-    let shaken = format!("{shaken:.0} {unit} ({g:.0} g)");
+    line("largest displacement", moved, if growing { "and growing".into() } else { a });
+    line("largest velocity", Quantity::Speed.said(units, speed), b);
+    let shaken = Quantity::Acceleration.said(units.first(), acceleration_m_s2);
+    let shaken = format!("{shaken} ({:.0} g)", gravities(acceleration_m_s2));
     let endless = "without end: nothing damps the bat".to_owned();
     let (size, when) = if damped { (shaken, c) } else { (endless, String::new()) };
     line("largest acceleration", size, when);
@@ -138,7 +119,9 @@ fn motion(seen: &Watched, damped: bool, units: Units) -> String {
 
 /// The largest bending strain while the ball is there and in the whole time.
 fn strains(report: &AfterHit, units: Units) -> String {
-    let (Some(during), Some(after)) = (report.during, report.after) else { return String::new() };
+    let (Some(during), Some(after)) = (report.strain_max_in_contact, report.strain_max) else {
+        return String::new();
+    };
     let mut out = format!(
         "\nBending strain at the outermost fibre (within {:.0} % as a quarter fewer modes say)\n",
         (100.0 * report.strain_error).max(1.0)
@@ -149,7 +132,7 @@ fn strains(report: &AfterHit, units: Units) -> String {
             "  {what:<24} {:.3} %, {} at {}, {:.2} ms",
             100.0 * worst.strain,
             units.first().stress(worst.stress_pa, 1),
-            units.place(worst.x_m, 2),
+            Quantity::Length.said(units, worst.x_m),
             1e3 * worst.time_s
         );
     }
@@ -158,25 +141,21 @@ fn strains(report: &AfterHit, units: Units) -> String {
 
 /// The modes that vibrate at a place after the contact.
 fn spectrum(seen: &Watched, damped: bool, units: Units) -> String {
-    let (place, lines) = (units.place(seen.x_m, 2), &seen.spectrum);
+    let (place, lines) = (Quantity::Length.said(units, seen.x_m), &seen.spectrum);
     let mut out =
         format!("\nSpectrum at {place} when the ball has left: amplitude of every mode\n");
     let us = units.us_first();
-    let (length, velocity) = if us { ("in", "mph") } else { ("mm", "m/s") };
+    let [length, speed] = [Quantity::Small, Quantity::Speed].map(|of| of.scale(us).finer().finer());
     let columns = Columns::new(
-        [numbers(9, "Hz"), numbers(10, length), numbers(10, velocity)]
+        [numbers(9, "Hz"), numbers(10, length.name), numbers(10, speed.name)]
             .into_iter()
             .chain(damped.then(|| numbers(10, "g"))),
     );
     out += &columns.heads();
     let largest = lines.iter().map(|line| line.velocity_m_s).fold(0.0, f64::max);
     for line in lines.iter().filter(|line| line.velocity_m_s >= 0.01 * largest) {
-        let (moved, speed) = (line.displacement_m, line.velocity_m_s);
-        let [moved, speed] = match us {
-            true => [format!("{:.4}", inches(moved)), format!("{:.3}", miles_per_hour(speed))],
-            false => [format!("{:.3}", 1e3 * moved), format!("{speed:.3}")],
-        };
-        let cells = [format!("{:.1}", line.frequency_hz), moved, speed];
+        let (moved, fast) = (length.value(line.displacement_m), speed.value(line.velocity_m_s));
+        let cells = [format!("{:.1}", line.frequency_hz), moved, fast];
         let shaken = damped.then(|| format!("{:.0}", gravities(line.acceleration_m_s2)));
         out += &columns.row(cells.into_iter().chain(shaken));
     }
@@ -186,9 +165,9 @@ fn spectrum(seen: &Watched, damped: bool, units: Units) -> String {
 /// The largest strain of some places.
 fn along(report: &AfterHit, units: Units) -> String {
     let mut out = String::from("\nAlong the bat, the largest in the whole time\n");
-    let every = (report.envelope.len() / 10).max(1);
-    for at in report.envelope.iter().step_by(every) {
-        let place = format!("at {}", units.place(at.x_m, 2));
+    let every = (report.along.len() / 10).max(1);
+    for at in report.along.iter().step_by(every) {
+        let place = format!("at {}", Quantity::Length.said(units, at.x_m));
         let stress = units.first().stress(at.stress_pa, 1);
         let _ = writeln!(out, "  {place:<24} {:.3} %, {stress}", 100.0 * at.strain);
     }
@@ -196,25 +175,23 @@ fn along(report: &AfterHit, units: Units) -> String {
 }
 
 /// The heading of the load relative to the strength, which is that of clear wood in a bat of wood.
-fn heading(bat: &Bat) -> &'static str {
-    match bat.material().scatter() {
-        Some(_) => "Strength (clear wood along the grain; grain, knots, dents not known)\n",
-        None => "Strength\n",
-    }
+fn heading(bat: &Bat) -> String {
+    let clear = " (clear wood along the grain; grain, knots, dents not known)";
+    format!("Strength{}\n", bat.material().scatter().map_or("", |_| clear))
 }
 
 /// The load relative to the strength.
 fn strength(bat: &Bat, report: &AfterHit, units: Units) -> String {
     let mut out = format!("\n{}", heading(bat));
-    if report.loads.is_empty() {
+    if report.strength.is_empty() {
         let unknown = "  no material has a known strength: \"strength\" and \"strain_to_failure\" of \
                        the material in the bat file say what it bears";
         return out + &wrapped(unknown, 4);
     }
-    for load in &report.loads {
+    for load in &report.strength {
         out += &wrapped(&format!("  {}", reached(load, units)), 4);
     }
-    out + &beyond(report.loads.iter())
+    out + &beyond(report.strength.iter())
 }
 
 /// The meaning of a share above 100 %; empty where there is none.
@@ -252,7 +229,7 @@ pub fn reached(load: &Load, units: Units) -> String {
     };
     format!(
         "{most} at {}: {:.0} % of the {bears} {test}; {swing}",
-        units.place(load.at.x_m, 2),
+        Quantity::Length.said(units, load.at.x_m),
         100.0 * load.share
     )
 }
@@ -262,11 +239,12 @@ pub fn strengths(bat: &Bat, all: &[Strength], units: Units) -> String {
     if all.iter().all(|at| at.limits.is_empty()) {
         return String::new();
     }
-    let mut out = heading(bat).to_owned();
+    let mut out = heading(bat);
     for at in all {
         for load in &at.limits {
             let text = reached(load, units);
-            out += &wrapped(&format!("  hit at {}: {text}", units.place(at.x_m, 2)), 4);
+            out +=
+                &wrapped(&format!("  hit at {}: {text}", Quantity::Length.said(units, at.x_m)), 4);
         }
     }
     out + &beyond(all.iter().flat_map(|at| &at.limits))
@@ -279,7 +257,7 @@ pub fn history(report: &AfterHit) -> String {
             .map(|what| format!("{what}_at_{}_m", seen.x_m))
     });
     let mut table = Csv::new(["t_s", "force_n"].map(str::to_owned).into_iter().chain(columns));
-    for (k, now) in report.instants.iter().enumerate() {
+    for (k, (time, force)) in report.times_s.iter().zip(&report.force_n).enumerate() {
         let at_places = report.watched.iter().flat_map(|seen| {
             [
                 seen.displacement_m[k],
@@ -288,37 +266,12 @@ pub fn history(report: &AfterHit) -> String {
                 seen.strain[k],
             ]
         });
-        table.row([now.time, now.force].into_iter().chain(at_places).map(Cell::from));
+        table.row([*time, *force].into_iter().chain(at_places).map(Cell::from));
     }
     table.text()
 }
 
 /// The `sweetspot-ring/1` document of a hit, including the neglected effects.
-pub fn document(
-    after: &Aftermath,
-    report: &AfterHit,
-    impact: Impact,
-    ignored: Vec<String>,
-) -> Written<file::RingFile> {
-    let along = |of: fn(&Strained) -> f64| report.envelope.iter().map(of).collect::<Vec<_>>();
-    Written::of(file::RingFile::Hit(Box::new(file::AfterHit {
-        edits: after.bat().edits().to_vec(),
-        modes: after.count(),
-        at_m: after.place,
-        contact_s: after.end(),
-        times_s: report.instants.iter().map(|now| now.time).collect(),
-        force_n: report.instants.iter().map(|now| now.force).collect(),
-        watched: report.watched.clone(),
-        strain_max_in_contact: report.during,
-        strain_max: report.after,
-        strain_error: report.strain_error,
-        along: file::Along {
-            x_m: along(|at| at.x_m),
-            strain_max: along(|at| at.strain),
-            stress_max_pa: along(|at| at.stress_pa),
-        },
-        strength: report.loads.clone(),
-        impact,
-        ignored,
-    })))
+pub fn document(motion: AfterHit, impact: Impact, ignored: Vec<String>) -> Written<RingFile> {
+    Written::of(RingFile::Hit(Box::new(Struck { motion, impact, ignored })))
 }

@@ -4,11 +4,12 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::csv::Csv;
+use crate::parts::{Quantity, Scale};
 use crate::report::resolved::{profile, text_in_columns};
 use crate::schema::{Written, document};
 use sweetspot::Bat;
 use sweetspot::base::number::{rounded, shortest, signed, significant};
-use sweetspot::base::units::{inches, miles_per_hour, ounce_square_inches, ounces};
+use sweetspot::base::units::inches;
 use sweetspot::files::schema::document::{BatName, Format};
 use sweetspot::files::schema::resolved::ResolvedBat;
 use sweetspot_study::aim::aimed::{AimedTarget, Outcome};
@@ -24,20 +25,22 @@ pub fn shown(goal: Goal, value: f64, us: bool) -> String {
     if !value.is_finite() {
         return "none".to_owned();
     }
-    match (goal.unit(), us) {
-        ("kg", false) => format!("{:.1} g", 1e3 * value),
-        ("kg", true) => format!("{:.2} oz", ounces(value)),
-        ("m", false) => format!("{:.2} cm", 1e2 * value),
-        ("m", true) => format!("{:.3} in", inches(value)),
-        ("kg m²", false) => format!("{value:.5} kg m²"),
-        ("kg m²", true) => format!("{:.0} oz in²", ounce_square_inches(value)),
-        ("Hz", _) => format!("{value:.2} Hz"),
-        ("m/s", false) => format!("{value:.2} m/s"),
-        ("m/s", true) => format!("{:.1} mph", miles_per_hour(value)),
+    let quantity = match goal {
         // As the trade writes it: three ounces fewer than inches are -3.
-        _ if goal == Goal::Drop => signed(-value, 2),
-        (unit, _) => format!("{} {unit}", significant(value, 4)).trim_end().to_owned(),
-    }
+        Goal::Drop => return signed(-value, 2),
+        goal => Quantity::in_si(goal.unit()),
+    };
+    let Some(quantity) = quantity else {
+        return format!("{} {}", significant(value, 4), goal.unit()).trim_end().to_owned();
+    };
+    let usual = quantity.scale(us);
+    let Scale { per, decimals, name } = match (quantity, us) {
+        (Quantity::Length, true) | (Quantity::Inertia, false) | (Quantity::Frequency, _) => {
+            usual.finer()
+        }
+        _ => usual,
+    };
+    format!("{:.decimals$} {name}", per * value)
 }
 
 /// The size of a difference of a goal's values, without a sign.
@@ -128,6 +131,9 @@ pub fn conflict_words(conflict: &Conflict, targets: &[AimedTarget], us: bool) ->
                 let aside: Vec<String> = conflict.aside.iter().map(|k| wish(*k)).collect();
                 words += &format!("; {} left aside there", aside.join(" and "));
             }
+            if settled(conflict) {
+                words += "; all this by changes with a knot every 5 cm: a sharper cut may do more";
+            }
             words
         }
     }
@@ -170,9 +176,7 @@ pub fn bat_text(outcome: &Outcome) -> String {
 /// A warning before turning: a barrel forbidden by rules, with the rule.
 pub fn warning(outcome: &Outcome, us: bool) -> Option<String> {
     let widest = outcome.widest();
-    let shown = |value: f64| {
-        if us { format!("{:.2} in", inches(value)) } else { format!("{:.1} mm", 1e3 * value) }
-    };
+    let shown = |value: f64| Quantity::Small.scale(us).text(value);
     // Requested rules have a separate table.
     let of_diameter = |ruled: &Ruled| ruled.rule == Rule::DiameterAtMost;
     if outcome.rules.as_ref().is_some_and(|set| set.limits.iter().any(of_diameter)) {

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use crate::parts::{Columns, Piece, first, labels, lines, numbers, wrapped};
+use crate::parts::{Columns, Piece, Quantity, Units, first, labels, lines, numbers, wrapped};
 use crate::report::aimed::{asked, called, conflict_words, settled, shown, size, warning};
 use sweetspot::base::number::{rounded, shortest, signed, significant};
 use sweetspot::base::units::{inches, ounce_square_inches, ounces};
@@ -48,14 +48,9 @@ pub fn text(outcome: &Outcome, (pass, us, full): (f64, bool, bool)) -> [Piece; 5
     .map(|(when, name, text)| (when, name, if full { text } else { text.replace("\n\n", "\n") }))
 }
 
-/// The norm of a change (mm), in the maker's unit.
-fn norm(value: f64, us: bool) -> String {
-    if us { format!("{:.4} in", inches(1e-3 * value)) } else { format!("{value:.3} mm") }
-}
-
 /// A diameter, in the maker's unit.
 fn across(value: f64, us: bool) -> String {
-    if us { format!("{:.3} in", inches(value)) } else { format!("{:.2} mm", 1e3 * value) }
+    Quantity::Small.scale(us).finer().text(value)
 }
 
 fn counted(count: usize, what: &str) -> String {
@@ -64,10 +59,7 @@ fn counted(count: usize, what: &str) -> String {
 
 /// A place on the bat, in the maker's unit.
 fn place(x: f64, us: bool) -> String {
-    match us {
-        true => format!("{:.2} in", inches(x)),
-        false => format!("{} mm", shortest(rounded(1e3 * x, 1))),
-    }
+    Quantity::Small.scale(us).text(x)
 }
 
 /// The verdict, the changes, and remarks.
@@ -90,7 +82,7 @@ fn head(outcome: &Outcome, us: bool) -> String {
     let change = format!(
         "of its diameter at most {} off, {added}; norm of the change {}; {}, {}",
         across(outcome.largest_cut_m, us),
-        norm(outcome.norm_mm, us),
+        Quantity::Small.scale(us).finer().finer().text(1e-3 * outcome.norm_mm),
         counted(outcome.iterations, "step"),
         counted(outcome.bats_solved, "bat")
     );
@@ -126,8 +118,7 @@ fn to_know(outcome: &Outcome, us: bool) -> Vec<String> {
         ));
     }
     if outcome.limits_broken_m > 0.0 {
-        let by = outcome.limits_broken_m;
-        let by = if us { format!("{:.5} in", inches(by)) } else { format!("{:.4} mm", 1e3 * by) };
+        let by = Quantity::Small.about(Units::one(us), outcome.limits_broken_m);
         told.push(format!("a limit of the diameter is broken by {by}"));
     }
     if let Some((slope, by)) = outcome.slope.zip(outcome.steeper_by) {
@@ -135,9 +126,7 @@ fn to_know(outcome: &Outcome, us: bool) -> Vec<String> {
         told.push(format!("the limit {} of the slope {kept}", shortest(slope)));
     }
     if outcome.kept_within_m > 5e-8 {
-        let by = outcome.kept_within_m;
-        let inch = format!("{} in", significant(inches(by), 2));
-        let by = if us { inch } else { format!("{:.1} μm", 1e6 * by) };
+        let by = Quantity::Small.about(Units::one(us), outcome.kept_within_m);
         told.push(format!(
             "where the bat is kept, the curve through its stations moves by {by} at most"
         ));
@@ -169,8 +158,14 @@ fn targets(outcome: &Outcome, us: bool) -> String {
             out += &format!("  missed by {}\n", missed_by(band, target.value(), us));
         }
     }
+    // The search weighs other free choices too.
+    let size = if outcome.free.is_empty() {
+        "the norm"
+    } else {
+        "the size of all changes, free choices too,"
+    };
     let priced: Vec<String> =
-        outcome.targets.iter().filter_map(|target| priced(target, us)).collect();
+        outcome.targets.iter().filter_map(|target| priced(target, size, us)).collect();
     if !priced.is_empty() {
         out += &wrapped(&format!("Price: {}.", priced.join("; ")), 2);
     }
@@ -190,7 +185,7 @@ fn missed_by(band: &Band, value: f64, us: bool) -> String {
 }
 
 /// The cost of tightening a target that binds.
-fn priced(AimedTarget { band, price, .. }: &AimedTarget, us: bool) -> Option<String> {
+fn priced(AimedTarget { band, price, .. }: &AimedTarget, size: &str, us: bool) -> Option<String> {
     let price = price.filter(|price| *price > 0.0)?;
     let (step, words) = match (band.goal.unit(), us) {
         ("kg", false) => (1e-3, "1 g".to_owned()),
@@ -202,11 +197,8 @@ fn priced(AimedTarget { band, price, .. }: &AimedTarget, us: bool) -> Option<Str
         ("", _) => (0.1, "0.1".to_owned()),
         (unit, _) => (1.0, format!("1 {unit}")),
     };
-    let cost = match us {
-        true => format!("{} in", significant(inches(1e-3 * price * step), 2)),
-        false => format!("{} mm", significant(price * step, 2)),
-    };
-    Some(format!("{words} more of the {} changes the norm by {cost}", called(band.goal)))
+    let cost = Quantity::Small.about(Units::one(us), 1e-3 * price * step);
+    Some(format!("{words} more of the {} changes {size} by {cost}", called(band.goal)))
 }
 
 fn before_and_after(outcome: &Outcome, us: bool, full: bool) -> String {

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::parts::cell::Quantity::{Error, Length, Ratio, Speed, Words};
-use crate::parts::{Column, Part, Table, Units};
+use crate::parts::{Column, Part, Quantity, Table, Units};
 use crate::report::edits;
 use crate::report::wall_text::{wall_facts, wall_words};
 use crate::schema::{Written, document};
@@ -68,14 +68,14 @@ const NEAR: f64 = 0.01;
 pub fn report(tested: &Tested, units: Units, full: bool) -> (String, Vec<Part<'static>>) {
     let Tested { bat, scene, scan, .. } = tested;
     let Scan { protocol, places, largest, .. } = scan;
-    let speed = units.inline(units.speed(protocol.ball_speed_m_s));
+    let speed = Quantity::Speed.said(units, protocol.ball_speed_m_s);
     let cor = if protocol.ball.cor_by_speed.is_empty() {
         protocol.cor.to_string()
     } else {
         "by its speed".to_owned()
     };
     let source = if full { format!(": {}", protocol.cor_source) } else { String::new() };
-    let pivot = units.inline(units.length(protocol.pivot_m));
+    let pivot = Quantity::Length.said(units, protocol.pivot_m);
     let mut notes = vec![format!(
         "bat at rest on a pivot {pivot} from the knob end; {} at {speed}, cor {cor}{source}",
         protocol.ball.title()
@@ -84,8 +84,7 @@ pub fn report(tested: &Tested, units: Units, full: bool) -> (String, Vec<Part<'s
     notes.extend(scene.hoop.wall().map(|wall| wall_words(bat, scene, wall)));
     notes.extend(ignored::in_hit(bat, scene).iter().map(|effect| format!("left out: {effect}")));
     let shown = if full { &places[..] } else { around(places, largest.as_ref()) };
-    let mut parts =
-        vec![Part::List(notes), Part::Table(Table::of("The scan", &COLUMNS, shown, units))];
+    let mut parts = vec![Part::List(notes), Part::Table(Table::of("", &COLUMNS, shown, units))];
     let left = places.len() - shown.len();
     parts.extend((left > 0).then(|| Part::List(vec![format!("and {left} places more")])));
     if let Some(wall) = scan.wall.as_ref().filter(|_| full) {
@@ -112,7 +111,7 @@ fn verdict(tested: &Tested, units: Units, full: bool) -> Vec<String> {
     let Some(Largest { from_tip_m, bbcor, besr, bpf, .. }) = scan.largest else {
         return vec!["No place of the scan has a figure.".to_owned()];
     };
-    let place = units.inline(units.length(from_tip_m));
+    let place = Quantity::Length.said(units, from_tip_m);
     let against = match scan.within_limit {
         Some(true) => "below the limit of",
         Some(false) => "above the limit of",
@@ -120,9 +119,17 @@ fn verdict(tested: &Tested, units: Units, full: bool) -> Vec<String> {
     };
     let source = if full { format!(" ({LIMIT_SOURCE})") } else { String::new() };
     let mut said = vec![format!(
-        "Largest {bbcor:.4}, {place} from the tip: {against} {LIMIT:.2}{source}. It rises with the ball's cor by \
-         about as much; a laboratory's ball and limit decide, not this."
+        "Largest of {} places {bbcor:.4}, {place} from the tip: {against} {LIMIT:.2}{source}. It rises with the \
+         ball's cor by about as much; a laboratory's ball and limit decide, not this.",
+        scan.places.len()
     )];
+    let there = scan
+        .places
+        .iter()
+        .find(|place| Some(place.x_m) == scan.largest.as_ref().map(|most| most.x_m));
+    if there.is_some_and(|place| place.flags.iter().any(|flag| flag == "ball_law_beyond")) {
+        said.push("The ball's law was not measured for such a hit (docs/limits.md).".to_owned());
+    }
     if let Some(wall) = scan.wall.as_ref().filter(|wall| wall.is_deep()) {
         let [low, high] = wall.bbcor.range;
         said.push(format!(

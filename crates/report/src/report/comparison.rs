@@ -1,15 +1,12 @@
 //! Several bats side by side: tables of 80 columns, and words.
 
-use crate::parts::{Columns, Units, first, numbers, wrapped};
+use crate::parts::{Columns, Quantity, Scale, Shown, Units, WIDE, first, lines, numbers, wrapped};
 use crate::report::edits;
 use crate::report::trust::doubts;
 use sweetspot::base::number::significant;
-use sweetspot::base::units::{inches, miles_per_hour, ounce_square_inches, ounces};
 use sweetspot::collision::Scene;
 use sweetspot_study::comparison::contender::Contender;
-use sweetspot_study::comparison::rows::{
-    Compared, ComparedFigure, Difference, From, Unit, energies_compare,
-};
+use sweetspot_study::comparison::rows::{ComparedFigure, Difference, From, Unit, energies_compare};
 use sweetspot_study::comparison::stretches::{Harder, Stretch};
 use sweetspot_study::comparison::table::Comparison;
 use sweetspot_study::ignored::in_hit;
@@ -37,61 +34,43 @@ pub fn letter(bat: usize) -> char {
     char::from(b'A' + bat as u8)
 }
 
-/// Factor, decimals and name of a unit in the tables.
-struct Scale {
-    factor: f64,
-    decimals: usize,
-    name: &'static str,
-}
-
-fn scale(unit: Unit, units: Units) -> Scale {
-    let (us, (energy, per)) = (units.us_first(), units.of_energy());
-    let of = |factor, decimals, name| Scale { factor, decimals, name };
-    match (unit, us) {
-        (Unit::Metres, false) => of(100.0, 2, "cm"),
-        (Unit::Metres, true) => of(inches(1.0), 2, "in"),
-        (Unit::Kilograms, false) => of(1000.0, 1, "g"),
-        (Unit::Kilograms, true) => of(ounces(1.0), 2, "oz"),
-        (Unit::KilogramSquareMetres, false) => of(1.0, 5, "kg m²"),
-        (Unit::KilogramSquareMetres, true) => of(ounce_square_inches(1.0), 0, "oz in²"),
-        (Unit::MetresPerSecond, false) => of(1.0, 2, "m/s"),
-        (Unit::MetresPerSecond, true) => of(miles_per_hour(1.0), 2, "mph"),
-        (Unit::Hertz, _) => of(1.0, 1, "Hz"),
-        (Unit::RadiansPerSecond, _) => of(1.0, 2, "rad/s"),
-        (Unit::Joules, _) => of(per, 2, energy),
-        (Unit::One, _) => of(1.0, 4, ""),
-    }
+/// The unit of a row in the tables.
+fn scale(unit: Unit, us: bool) -> Scale {
+    let quantity = match unit {
+        Unit::Metres => Quantity::Length,
+        Unit::Kilograms => Quantity::Mass,
+        Unit::KilogramSquareMetres => Quantity::Inertia,
+        Unit::MetresPerSecond => return Scale { decimals: 2, ..Quantity::Speed.scale(us) },
+        Unit::Hertz => Quantity::Frequency,
+        Unit::RadiansPerSecond => Quantity::Turning,
+        Unit::Joules => Quantity::Energy,
+        Unit::One => Quantity::Ratio(4),
+    };
+    quantity.scale(us)
 }
 
 /// A difference with at most this number of decimals is shown in full, a smaller one as a power of ten.
 const MOST_DECIMALS: usize = 4;
 
-impl Scale {
-    fn value(&self, value: f64) -> String {
-        format!("{:.*}", self.decimals, value * self.factor + 0.0)
+/// A difference with its sign, with more decimals where these would hide it; "none" within the errors.
+fn by(Scale { per, decimals, .. }: Scale, difference: Difference) -> String {
+    if !difference.beyond_errors {
+        return "none".to_owned();
     }
+    let by = difference.by * per;
+    let mut told =
+        (decimals..=decimals.max(MOST_DECIMALS)).map(|decimals| format!("{by:+.decimals$}"));
+    let shows = |text: &String| text.bytes().any(|b| (b'1'..=b'9').contains(&b));
+    told.find(shows).unwrap_or_else(|| format!("{by:+.0e}"))
+}
 
-    /// A difference with its sign, with more decimals where these would hide it.
-    fn difference(&self, difference: Difference) -> String {
-        if !difference.beyond_errors {
-            return "none".to_owned();
-        }
-        let by = difference.by * self.factor;
-        let decimals = (self.decimals..=self.decimals.max(MOST_DECIMALS))
-            .map(|decimals| format!("{by:+.decimals$}"));
-        let shows = |text: &String| text.bytes().any(|b| (b'1'..=b'9').contains(&b));
-        decimals.into_iter().find(shows).unwrap_or_else(|| format!("{by:+.0e}"))
-    }
-
-    /// The error of a difference, in words.
-    fn within(&self, difference: Difference, value: f64) -> String {
-        let within = difference.within * self.factor;
-        match within {
-            _ if difference.within <= 1e-11 * value.abs() => "exact".to_owned(),
-            w if w >= 0.1 => format!("{w:.1}"),
-            w if w >= 0.001 => format!("{w:.3}"),
-            w => format!("{w:.0e}"),
-        }
+/// The error of a difference from that value, in words.
+fn within(scale: Scale, difference: Difference, value: f64) -> String {
+    match difference.within * scale.per {
+        _ if difference.within <= 1e-11 * value.abs() => "exact".to_owned(),
+        w if w >= 0.1 => format!("{w:.1}"),
+        w if w >= 0.001 => format!("{w:.3}"),
+        w => format!("{w:.0e}"),
     }
 }
 
@@ -102,7 +81,7 @@ pub fn text(comparison: &Comparison, units: Units) -> String {
                   bats; less with a smaller --tol. A difference within it is shown as none.";
     out += &wrapped(within, 5);
     if comparison.bats.len() > 2 {
-        out += &overview(comparison, units);
+        out += &format!("\n{}", table(comparison, &rows(comparison, units)));
     }
     for bat in 1..comparison.bats.len() {
         out += &pair(comparison, bat, units);
@@ -140,9 +119,9 @@ pub fn hit(comparison: &Comparison, units: Units) -> String {
     let scene = format!(
         "Hit: model {}, swung about a point {} {side} the knob end, {} at {}",
         comparison.terms.model.name(),
-        units.inline(units.length(pivot.abs())),
+        Quantity::Length.said(units, pivot.abs()),
         ball.title(),
-        units.inline(units.speed(*ball_speed)),
+        Quantity::Speed.said(units, *ball_speed),
     );
     wrapped(&scene, 5) + &wrapped(&swing(comparison, units), 5)
 }
@@ -157,8 +136,8 @@ pub fn swing(comparison: &Comparison, units: Units) -> String {
                 each.map(|(k, bat)| format!("{} at {:.1} rad/s", letter(k), bat.scene.swing));
             format!(
                 "     All barrels move at {} where they are {} from the tip: {}",
-                units.inline(units.speed(barrel.speed)),
-                units.inline(units.length(barrel.from_tip)),
+                Quantity::Speed.said(units, barrel.speed),
+                Quantity::Length.said(units, barrel.from_tip),
                 each.collect::<Vec<_>>().join(", ")
             )
         }
@@ -183,32 +162,6 @@ fn shown(comparison: &Comparison) -> impl Iterator<Item = &ComparedFigure> {
     })
 }
 
-/// The name of a row with its unit; a place from the tip comes after the same place from the knob end.
-fn label(row: &ComparedFigure, scale: &Scale) -> String {
-    match (row.from, scale.name) {
-        (From::Tip, unit) => format!("    from the tip, {unit}"),
-        (_, "") => row.name.clone(),
-        (_, unit) => format!("{}, {unit}", row.name),
-    }
-}
-
-/// The values of all bats.
-fn overview(comparison: &Comparison, units: Units) -> String {
-    let width = (48 / comparison.bats.len()).min(10);
-    let bats = (0..comparison.bats.len()).map(|k| numbers(width, letter(k)));
-    let columns =
-        Columns::new([first(32, "All (places from the knob end)")].into_iter().chain(bats));
-    let mut out = format!("\n{}", columns.heads());
-    for row in shown(comparison) {
-        let scale = scale(row.unit, units);
-        let values = row.values.iter();
-        let values = values.map(|v| v.map_or(String::new(), |figure| scale.value(figure.value)));
-        let label = format!("  {}", label(row, &scale));
-        out += &columns.row([label].into_iter().chain(values));
-    }
-    out
-}
-
 /// A row of figures for people: label, the value of each bat, and the difference of each other bat from the first.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ComparisonRow {
@@ -220,14 +173,18 @@ pub struct ComparisonRow {
     pub values: Vec<String>,
     /// Difference of the second bat and those after it from the first; "none" within the errors.
     pub differences: Vec<String>,
+    /// How far these may be off by the computation.
+    within: Vec<String>,
+    /// These differences in the other system of units, where both are shown.
+    other: Vec<String>,
     /// The difference between two pieces of one wood, with ±; empty where it is not known.
     pub pieces: String,
     /// Whether any bat differs from the first by more than the errors.
     pub differs: bool,
 }
 
-/// The name of a row with its unit, complete without other rows.
-fn alone(figure: &ComparedFigure, unit: &str) -> String {
+/// The name of a row, complete without other rows.
+fn alone(figure: &ComparedFigure) -> String {
     let name = match figure.key.trim_end_matches("_from_tip") {
         "best_place" => "sweet spot",
         "zone_from" => "sweet zone from",
@@ -236,38 +193,69 @@ fn alone(figure: &ComparedFigure, unit: &str) -> String {
         _ => &figure.name,
     };
     let tip = if figure.from == From::Tip { ", from the tip" } else { "" };
-    let unit = if unit.is_empty() { String::new() } else { format!(", {unit}") };
-    format!("{name}{tip}{unit}")
+    format!("{name}{tip}")
 }
 
-/// Every row with information, in one system of units.
-pub fn rows(comparison: &Comparison, units: Units) -> Vec<ComparisonRow> {
-    let bats = comparison.bats.len();
-    let row = |figure: &ComparedFigure| {
-        let scale = scale(figure.unit, units);
-        let differences = || (1..bats).map(|bat| figure.difference(bat));
-        let told = |d: Option<Difference>| d.map_or(String::new(), |d| scale.difference(d));
-        let value = |v: &Option<Compared>| v.map_or(String::new(), |v| scale.value(v.value));
-        ComparisonRow {
-            key: figure.key.clone(),
-            label: alone(figure, scale.name),
-            values: figure.values.iter().map(value).collect(),
-            differences: differences().map(told).collect(),
-            pieces: {
-                let all = figure.values.iter().flatten().filter_map(|value| value.between_pieces);
-                let most = all.fold(0.0, f64::max) * scale.factor;
-                if most > 0.0 { format!("± {}", significant(most, 2)) } else { String::new() }
-            },
-            differs: differences().flatten().any(|difference| difference.beyond_errors),
-        }
+/// A row of a figure, with that label before its unit.
+fn row(figure: &ComparedFigure, label: &str, units: Units) -> ComparisonRow {
+    let us = units.us_first();
+    let [scale, other] = [us, !us].map(|us| scale(figure.unit, us));
+    let unit = if scale.name.is_empty() { "" } else { &format!(", {}", scale.name) };
+    let first = figure.values[0].map_or(0.0, |figure| figure.value);
+    let each = || (1..figure.values.len()).map(|bat| figure.difference(bat));
+    let told = |said: &dyn Fn(Difference) -> String| -> Vec<String> {
+        each().map(|difference| difference.map_or(String::new(), said)).collect()
     };
-    shown(comparison).map(row).collect()
+    let in_other = |difference: Difference| {
+        let shown = units.both() && difference.beyond_errors && other.name != scale.name;
+        if shown { format!("{} {}", by(other, difference), other.name) } else { String::new() }
+    };
+    let pieces = figure.values.iter().flatten().filter_map(|value| value.between_pieces);
+    let pieces = pieces.fold(0.0, f64::max) * scale.per;
+    ComparisonRow {
+        key: figure.key.clone(),
+        label: format!("{label}{unit}"),
+        values: (figure.values.iter())
+            .map(|value| value.map_or(String::new(), |value| scale.value(value.value)))
+            .collect(),
+        differences: told(&|difference| by(scale, difference)),
+        within: told(&|difference| within(scale, difference, first)),
+        other: told(&in_other),
+        pieces: if pieces > 0.0 { format!("± {}", significant(pieces, 2)) } else { String::new() },
+        differs: each().flatten().any(|difference| difference.beyond_errors),
+    }
+}
+
+/// Every row with information.
+pub fn rows(comparison: &Comparison, units: Units) -> Vec<ComparisonRow> {
+    shown(comparison).map(|figure| row(figure, &alone(figure), units)).collect()
+}
+
+/// The values of as many bats as there is room for, at least the first, and the differences of the others.
+pub fn table(comparison: &Comparison, rows: &[ComparisonRow]) -> String {
+    const WIDTH: usize = 9;
+    let count = comparison.bats.len();
+    let shown = if count == 3 { count } else { 1 };
+    let label = (WIDE - WIDTH * (count + shown - 1)).min(32);
+    let heads = (0..shown).map(|k| numbers(WIDTH, letter(k)));
+    let heads = heads.chain((1..count).map(|k| numbers(WIDTH, format!("{} less A", letter(k)))));
+    let heads = [first(label, "What differs, and by how much")].into_iter().chain(heads);
+    let columns = Columns::new(heads);
+    let rows = rows.iter().map(|ComparisonRow { label, values, differences, .. }| {
+        columns.row([&format!("  {label}")].into_iter().chain(&values[..shown]).chain(differences))
+    });
+    columns.heads() + &rows.collect::<String>()
 }
 
 /// One bat compared with the first: figures, then exit speeds by place.
 fn pair(comparison: &Comparison, bat: usize, units: Units) -> String {
-    let all: Vec<&ComparedFigure> = shown(comparison).collect();
-    let mut out = figures(&all, bat, units);
+    let label = |figure: &ComparedFigure| match figure.from {
+        // It comes after the same place from the knob end.
+        From::Tip => "  from the tip".to_owned(),
+        _ => figure.name.clone(),
+    };
+    let all: Vec<_> = shown(comparison).map(|figure| row(figure, &label(figure), units)).collect();
+    let mut out = beside(&format!("{} beside A", letter(bat)), &all, bat, units);
     let near: Vec<_> = comparison.from_tip.iter().zip(&comparison.by_tip).step_by(4).collect();
     out += &by_place("Exit speed from the tip", &near, bat, units);
     if !comparison.same_length() {
@@ -277,76 +265,29 @@ fn pair(comparison: &Comparison, bat: usize, units: Units) -> String {
     out
 }
 
-/// Figures of one bat compared with those of the first.
-pub fn figures(all: &[&ComparedFigure], bat: usize, units: Units) -> String {
-    let name = letter(bat);
-    let less = format!("{name} less A");
-    let title = format!("{name} beside A");
+/// Rows of one bat compared with those of the first, 80 columns wide.
+pub fn beside(title: &str, rows: &[ComparisonRow], bat: usize, units: Units) -> String {
+    let less = format!("{} less A", letter(bat));
     let other = if units.both() { less.clone() } else { String::new() };
-    let heads = [title, "A".into(), name.to_string(), less, "within".into(), other];
-    let mut out = format!("\n{}", columns(heads).heads());
-    for figure in all {
-        let scale = scale(figure.unit, units);
-        out += &compared(figure, bat, &format!("  {}", label(figure, &scale)), units);
-    }
-    out
+    let columns: &[Shown<ComparisonRow>] = &[
+        (first(32, title), &|row| format!("  {}", row.label)),
+        (numbers(9, "A"), &|row| row.values[0].clone()),
+        (numbers(9, letter(bat)), &|row| row.values[bat].clone()),
+        (numbers(10, less), &|row| row.differences[bat - 1].clone()),
+        (numbers(8, "within"), &|row| row.within[bat - 1].clone()),
+        (numbers(12, other), &|row| row.other[bat - 1].clone()),
+    ];
+    format!("\n{}", lines(rows, columns))
 }
 
-fn by_place(title: &str, rows: &[(&f64, &ComparedFigure)], bat: usize, units: Units) -> String {
+fn by_place(title: &str, all: &[(&f64, &ComparedFigure)], bat: usize, units: Units) -> String {
     let hit =
         |(_, row): &&(&f64, &ComparedFigure)| row.values[0].is_some() || row.values[bat].is_some();
-    let lines: Vec<String> = rows
-        .iter()
-        .filter(hit)
-        .map(|(distance, row)| {
-            let place = units.positions(&[**distance]).join(", ");
-            compared(row, bat, &format!("  at {place}"), units)
-        })
-        .collect();
-    if lines.is_empty() {
-        return String::new();
-    }
-    let unit = scale(Unit::MetresPerSecond, units).name;
-    format!("{title}, {unit}\n{}", lines.concat())
-}
-
-/// A line of two values and their difference.
-fn compared(figure: &ComparedFigure, bat: usize, label: &str, units: Units) -> String {
-    let scale_here = scale(figure.unit, units);
-    let value = |k: usize| figure.values[k].map_or(String::new(), |f| scale_here.value(f.value));
-    let difference = figure.difference(bat);
-    let size = figure.values[0].map_or(0.0, |f| f.value);
-    let in_other = difference.filter(|d| units.both() && d.beyond_errors);
-    let in_other = in_other.map_or(String::new(), |d| {
-        let other = scale(figure.unit, if units.us_first() { Units::Si } else { Units::Us });
-        if figure.unit == Unit::Joules || other.name == scale_here.name {
-            String::new()
-        } else {
-            format!("{} {}", other.difference(d), other.name)
-        }
-    });
-    let cells = [
-        label.to_owned(),
-        value(0),
-        value(bat),
-        difference.map_or(String::new(), |d| scale_here.difference(d)),
-        difference.map_or(String::new(), |d| scale_here.within(d, size)),
-        in_other,
-    ];
-    columns(Default::default()).row(cells)
-}
-
-/// 80 columns.
-fn columns(heads: [String; 6]) -> Columns {
-    let [label, a, b, difference, within, other] = heads;
-    Columns::new([
-        first(32, label),
-        numbers(9, a),
-        numbers(9, b),
-        numbers(10, difference),
-        numbers(8, within),
-        numbers(12, other),
-    ])
+    let row = |(distance, figure): &(&f64, &ComparedFigure)| {
+        row(figure, &format!("at {}", Quantity::Length.said(units, **distance)), units)
+    };
+    let rows: Vec<ComparisonRow> = all.iter().filter(hit).map(row).collect();
+    if rows.is_empty() { String::new() } else { beside(title, &rows, bat, units) }
 }
 
 /// A sentence or two about each bat compared with the first.
@@ -373,7 +314,8 @@ pub fn words(comparison: &Comparison, units: Units) -> Vec<String> {
 
 /// Where along the barrel that bat or the first is faster; empty where neither is hit.
 pub fn along(comparison: &Comparison, bat: usize, units: Units) -> String {
-    let place = |x: f64| units.place(x, 1);
+    let tenths = |scale| Scale { decimals: 1, ..scale };
+    let place = |x: f64| Quantity::Length.in_both(units, |scale| tenths(scale).text(x));
     let stretch = |s: &Stretch| stretch(s, letter(bat), &place, units);
     let parts: Vec<String> = comparison.stretches(bat).iter().map(stretch).collect();
     parts.join("; ")
@@ -447,8 +389,10 @@ pub fn of_pieces(comparison: &Comparison, bat: usize) -> String {
 }
 
 fn by_speed(v: f64, units: Units) -> String {
-    let digits = |v: f64| if v >= 0.1 { format!("{v:.2}") } else { format!("{v:.1e}") };
-    units.beside(format!("{} m/s", digits(v)), format!("{} mph", digits(miles_per_hour(v))))
+    Quantity::Speed.in_both(units, |Scale { per, name, .. }| match per * v {
+        v if v >= 0.1 => format!("{v:.2} {name}"),
+        v => format!("{v:.1e} {name}"),
+    })
 }
 
 fn stretch(s: &Stretch, name: char, place: &dyn Fn(f64) -> String, units: Units) -> String {

@@ -1,11 +1,10 @@
 //! Several bats side by side on a screen: the important differences, then where along the barrel.
 
-use crate::parts::{Columns, Screen, Units, WIDE, first, numbers, wrapped};
+use crate::parts::{Screen, Units, wrapped};
 use crate::report::comparison::{
-    ComparisonRow, FIRST, along, bats, figures, hit, letter, rows, swung,
+    ComparisonRow, FIRST, along, bats, beside, hit, letter, rows, swung, table,
 };
 use crate::report::trust::doubts;
-use sweetspot_study::comparison::rows::ComparedFigure;
 use sweetspot_study::comparison::table::Comparison;
 
 /// Important rows for which a screen has no room.
@@ -20,11 +19,8 @@ pub fn screen(comparison: &Comparison, units: Units) -> Screen {
     let mut out = match (comparison.bats.len(), differing.is_empty()) {
         (_, true) => String::new(),
         (2, _) => {
-            let keyed = |row: &ComparisonRow| {
-                comparison.figures.iter().find(|figure| figure.key == row.key)
-            };
-            let all: Vec<&ComparedFigure> = differing.iter().filter_map(keyed).collect();
-            figures(&all, 1, units).trim_start().to_owned()
+            let (differing, _) = ordered(comparison, units);
+            beside("B beside A", &differing, 1, units).trim_start().to_owned()
         }
         _ => table(comparison, &differing),
     };
@@ -97,8 +93,8 @@ fn beside_pieces(comparison: &Comparison, units: Units) -> String {
         out += &wrapped(&text, 7);
     }
     if same.len() < others.len() && told.is_empty() {
-        let text = "Trust: how much two pieces of these materials differ is not known here; \"within\" is the \
-                    computation alone.";
+        let text = "Trust: how much two pieces of these materials differ is not counted here (a material of unknown \
+                    scatter, or a bat that was weighed and tapped); \"within\" is the computation alone.";
         out += &wrapped(text, 7);
     }
     out
@@ -110,20 +106,4 @@ fn ordered(comparison: &Comparison, units: Units) -> (Vec<ComparisonRow>, Vec<Co
     all.retain(|row| FIRST.contains(&row.key.as_str()) && !LEFT.contains(&row.key.as_str()));
     all.sort_by_key(|row| FIRST.iter().position(|key| row.key == *key));
     all.into_iter().partition(|row| row.differs)
-}
-
-/// The values of as many bats as there is room for, at least the first, and the differences of the others.
-fn table(comparison: &Comparison, differing: &[ComparisonRow]) -> String {
-    const WIDTH: usize = 9;
-    let count = comparison.bats.len();
-    let shown = if count == 3 { count } else { 1 };
-    let label = (WIDE - WIDTH * (count + shown - 1)).min(32);
-    let heads = (0..shown).map(|k| numbers(WIDTH, letter(k)));
-    let heads = heads.chain((1..count).map(|k| numbers(WIDTH, format!("{} less A", letter(k)))));
-    let heads = [first(label, "What differs, and by how much")].into_iter().chain(heads);
-    let columns = Columns::new(heads);
-    let rows = differing.iter().map(|ComparisonRow { label, values, differences, .. }| {
-        columns.row([&format!("  {label}")].into_iter().chain(&values[..shown]).chain(differences))
-    });
-    columns.heads() + &rows.collect::<String>()
 }

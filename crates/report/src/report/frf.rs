@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use crate::csv::Csv;
-use crate::parts::{Units, lines, numbers, wrapped};
+use crate::parts::{Quantity, Units, lines, numbers, wrapped};
 use crate::report::text::edited;
 use crate::schema::Written;
 use crate::schema::frf::{
@@ -158,7 +158,7 @@ pub fn text(told: &ToldResponse, full: bool, every: bool) -> String {
     let ToldResponse { bat, kind, places: [at, to], frf, samples, asked, peaks, measured, units } =
         *told;
     let (us, most) = (units == Units::Us, if full { usize::MAX } else { PEAKS });
-    let [at, to] = [at, to].map(|x| units.inline(units.length(x)));
+    let [at, to] = [at, to].map(|x| Quantity::Length.said(units, x));
     let title = format!(
         "Frequency response of {}: {} from a force at {at} to {to}",
         bat.title(),

@@ -1,7 +1,7 @@
 //! The measured responses of one file compared with the computed ones: a row each.
 
 use crate::csv;
-use crate::parts::{Column, Units, lines, numbers, wrapped};
+use crate::parts::{Column, Quantity, Units, lines, numbers, wrapped};
 use crate::report::frf::{FRAC, ToldResponse, damping};
 use crate::report::text::edited;
 use sweetspot::Bat;
@@ -68,8 +68,8 @@ pub fn text(bat: &Bat, source: &str, rows: &[RowOfSet], (units, full): (Units, b
         shown,
         &[
             (numbers(4, "no."), &|row| row.number.to_string()),
-            (numbers(10, "force at"), &|row| units.length(row.places[0])),
-            (numbers(10, "answer at"), &|row| units.length(row.places[1])),
+            (numbers(10, "force at"), &|row| Quantity::Length.said(units, row.places[0])),
+            (numbers(10, "answer at"), &|row| Quantity::Length.said(units, row.places[1])),
             (numbers(7, "FRAC"), &|row| format!("{:.3}", row.frac)),
             (numbers(11, "higher, dB"), &|row| format!("{:+.1}", row.level)),
             (numbers(10, "apart, dB"), &|row| format!("{:.1}", row.apart)),

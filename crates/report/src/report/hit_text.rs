@@ -1,20 +1,18 @@
-//! Tables of a hit for the terminal.
+//! A hit in words.
 
 use std::fmt::Write;
 
-use crate::parts::{Columns, Units, in_trade, numbers, wrapped};
+use crate::parts::{Part, Quantity, Units, wrapped};
 use crate::report::wall_text::{wall_facts, wall_words};
-use crate::report::{curve, edits};
+use crate::report::{curve, edits, tables};
 use sweetspot::Bat;
-use sweetspot::base::number::signed;
-use sweetspot::base::units::{gravities, inches, miles_per_hour};
-use sweetspot::collision::columns::{self, Column};
-use sweetspot::collision::figures::{BarrelSpeed, Figures, Moved};
+use sweetspot::base::units::gravities;
+use sweetspot::collision::figures::{BarrelSpeed, Figures};
 use sweetspot::collision::sweet_spot::Peak;
 use sweetspot::collision::{Impact, Model, Scene, Sweep, SweetSpot, hit::Wall};
 use sweetspot_study::ignored;
 
-/// The meaning of the flags of hits, and their letters in the table.
+/// The flags of hits, their letters in the table, and their meaning.
 const FLAGS: [(&str, char, &str); 8] = [
     ("reload", 'r', "pressed again while it was springing back"),
     ("late_contact", 'l', "the bat caught up when the force had almost gone"),
@@ -26,13 +24,23 @@ const FLAGS: [(&str, char, &str); 8] = [
     ("unresolved", 'u', "not resolved: the energies do not close"),
 ];
 
+/// The letters of the flags of a hit.
+pub fn letters(impact: &Impact) -> String {
+    FLAGS.iter().filter(|flag| impact.flags.contains(&flag.0)).map(|flag| flag.1).collect()
+}
+
 /// A line for every flag that hits have.
-fn legend(impacts: &[Impact]) -> String {
+fn legend(impacts: &[Impact]) -> Vec<String> {
     let has = |flag: &&(&str, char, &str)| impacts.iter().any(|i| i.flags.contains(&flag.0));
     let line = |(name, letter, words): &(&str, char, &str)| {
-        format!("  {letter}  {}: {words}\n", name.replace('_', " "))
+        format!("{letter}  {}: {words}", name.replace('_', " "))
     };
     FLAGS.iter().filter(has).map(line).collect()
+}
+
+/// The hits along the barrel, and the meaning of their flags.
+pub fn impacts(bat: &Bat, impacts: &[Impact], units: Units) -> Vec<Part<'static>> {
+    vec![Part::Table(tables::hits(bat, impacts, units)), Part::List(legend(impacts))]
 }
 
 /// Some of many impacts: a few at equal distances, and the nearest to the best place.
@@ -45,74 +53,14 @@ pub fn some(impacts: &[Impact], best: Option<f64>) -> Vec<Impact> {
     (0..impacts.len()).filter(shown).map(|k| impacts[k].clone()).collect()
 }
 
-/// Exit speed along the barrel: positions from knob and tip, speeds, efficiency, vibration and flags.
-pub fn impacts(bat: &Bat, impacts: &[Impact], units: Units) -> String {
-    // A compliant wall has a separate column.
-    let walls = impacts.iter().any(|i| i.outcome.as_ref().is_some_and(|o| o.energy.wall > 0.0));
-    let widths = if walls { [8, 8, 9, 9, 8, 9, 8, 9, 8] } else { [9, 9, 10, 10, 9, 10, 9, 9, 0] };
-    let (near, far) = if units.us_first() { ("in", "mph") } else { ("cm", "m/s") };
-    let (tip, second) = match units {
-        Units::Si => ("cm", ""),
-        Units::Us => ("in", ""),
-        Units::Both => ("in", "mph"),
-        Units::BothUsFirst => ("in", "m/s"),
-    };
-    let energy = units.of_energy().0;
-    // The exit speed in a second unit, and the wall's share, where there are such.
-    let used = |(k, _): &(usize, usize)| (*k != 4 || !second.is_empty()) && (*k != 8 || walls);
-    let used: Vec<(usize, usize)> = widths.into_iter().enumerate().filter(used).collect();
-    let table = Columns::new(used.iter().map(|(_, width)| numbers(*width, "")));
-    let row = |cells: &[&str; 9]| table.row(used.iter().map(|(k, _)| cells[*k]));
-    let mut out = row(&["from", "from", "bat", "exit", "exit", "rigid", "e_A", "vibra-", "wall"]);
-    out += &row(&["knob", "tip", "speed", "speed", "speed", "bat", "", "tion", ""]);
-    out += &row(&[near, tip, far, far, second, far, "", energy, energy]);
-    let length = |x: f64, unit: &str| {
-        let value = if unit == "in" { inches(x) } else { 100.0 * x };
-        // Adding 0 turns a length of −0 into 0.
-        format!("{:.2}", value + 0.0)
-    };
-    let fast = |v: f64| if units.us_first() { miles_per_hour(v) } else { v };
-    for impact in impacts {
-        let from_tip = (bat.length() - impact.x).max(0.0);
-        let mut cells = [const { String::new() }; 9];
-        cells[0] = length(impact.x, near);
-        cells[1] = length(from_tip, tip);
-        let told = |column: Column, shown: &dyn Fn(f64) -> String| {
-            column.at(impact).map_or(String::new(), shown)
-        };
-        let speed = |v: f64| format!("{:.2}", fast(v));
-        cells[2] = told(columns::BAT_SPEED, &speed);
-        cells[3] = told(columns::EXIT_SPEED, &speed);
-        if cells[3].is_empty() {
-            cells[3] = "no value".to_owned();
-        }
-        cells[4] = told(columns::EXIT_SPEED, &|v| match units.us_first() {
-            true => format!("{v:.2}"),
-            false => format!("{:.1}", miles_per_hour(v)),
-        });
-        cells[5] = told(columns::RIGID_EXIT_SPEED, &speed);
-        cells[6] = told(columns::EFFICIENCY, &|e| format!("{e:.3}"));
-        let energy = |energy: f64| format!("{:.2}", units.of_energy().1 * energy);
-        cells[7] = told(columns::VIBRATION, &energy);
-        cells[8] = impact.outcome.as_ref().map_or(String::new(), |o| energy(o.energy.wall));
-        let letters = FLAGS.iter().filter(|flag| impact.flags.contains(&flag.0)).map(|flag| flag.1);
-        let marks: String = letters.collect();
-        let gap = if marks.is_empty() { "" } else { " " };
-        let cells = cells.each_ref().map(String::as_str);
-        let _ = writeln!(out, "{}{gap}{marks}", row(&cells).trim_end_matches('\n'));
-    }
-    out + &legend(impacts)
-}
-
 /// Exit speed along the barrel, drawn.
 pub fn curve(impacts: &[Impact], units: Units) -> String {
     let us = units.us_first();
-    let fast = |v: f64| if us { miles_per_hour(v) } else { v };
-    let places: Vec<f64> =
-        impacts.iter().map(|i| if us { inches(i.x) } else { 100.0 * i.x }).collect();
-    let exit = |i: &Impact| i.outcome.as_ref().map(|o| fast(o.exit_speed));
+    let [fast, far] = [Quantity::Speed, Quantity::Length].map(|of| of.scale(us).per);
+    let places: Vec<f64> = impacts.iter().map(|i| far * i.x).collect();
+    let exit = |i: &Impact| i.outcome.as_ref().map(|o| fast * o.exit_speed);
     let ours: Vec<_> = impacts.iter().map(exit).collect();
-    let rigid: Vec<_> = impacts.iter().map(|i| i.rigid_exit_speed.map(fast)).collect();
+    let rigid: Vec<_> = impacts.iter().map(|i| i.rigid_exit_speed.map(|v| fast * v)).collect();
     let wall = |impact: &Impact| impact.outcome.as_ref().is_some_and(|o| o.energy.wall > 0.0);
     let stiff = match impacts.iter().any(wall) {
         true => "if it and its wall were stiff",
@@ -124,14 +72,9 @@ pub fn curve(impacts: &[Impact], units: Units) -> String {
     curve::draw(&places, [(&rigid, '.'), (&ours, '*')], labels.map(String::as_str), [66, 15])
 }
 
-/// One sentence: why the ball leaves fastest where it does.
-pub fn why(figures: &Figures, units: Units) -> String {
-    reason(figures, units).map_or(String::new(), |text| wrapped(&text, 0))
-}
-
 /// Why the exit speed is highest where it is; None without such a place.
 pub fn reason(figures: &Figures, units: Units) -> Option<String> {
-    let place = |x: f64| units.place(x, 1);
+    let place = |x: f64| Quantity::Length.said(units, x);
     let (peak, rigid) = (figures.spot.exit_speed_max?, figures.rigid_best?);
     if let Some(text) = lives_on_later(figures, units) {
         return Some(text);
@@ -144,7 +87,9 @@ pub fn reason(figures: &Figures, units: Units) -> Option<String> {
     };
     let kept = here.energy.wall;
     let (wall, of_wall) = match kept > 0.0 {
-        true => ("the wall, ", format!(", where the wall keeps {}", units.energy(kept, 2))),
+        true => {
+            ("the wall, ", format!(", where the wall keeps {}", Quantity::Energy.said(units, kept)))
+        }
         false => ("", String::new()),
     };
     let way = if peak.x > rigid.x { "towards the tip" } else { "towards the handle" };
@@ -153,8 +98,8 @@ pub fn reason(figures: &Figures, units: Units) -> Option<String> {
          at the sweet spot, {} {way}{of_wall}. Further out {wall}recoil and vibration take more than \
          the bat's speed there makes up for.",
         place(rigid.x),
-        units.energy(there, 2),
-        units.energy(here.energy.vibration, 2),
+        Quantity::Energy.said(units, there),
+        Quantity::Energy.said(units, here.energy.vibration),
         place((peak.x - rigid.x).abs())
     ))
 }
@@ -170,16 +115,16 @@ fn lives_on_later(figures: &Figures, units: Units) -> Option<String> {
         (false, true) => "pushes it again as it is leaving",
     };
     let first = figures.spot.first_separation_max.map_or(String::new(), |first| {
-        let place = units.place(first.x, 1);
-        let speed = units.inline(units.speed(first.value));
+        let place = Quantity::Length.said(units, first.x);
+        let speed = Quantity::Speed.said(units, first.value);
         format!(" By its first contact alone the ball leaves fastest at {place}, with {speed}.")
     });
     Some(format!("The fastest ball is so fast because the bat's vibration {how}.{first}"))
 }
 
 /// The description of a model that accompanies its results; an empirical one is marked as such.
-pub fn meaning(model: Model) -> String {
-    let told = match model {
+pub fn meaning(model: Model) -> &'static str {
+    match model {
         Model::Rigid => "the bat does not bend in this model",
         Model::EnergyLoss(_) => {
             "empirical: the loss to vibration is the WPI report's fit, not derived, and energy is not conserved \
@@ -191,24 +136,20 @@ pub fn meaning(model: Model) -> String {
         Model::Contact => {
             "ball and modes in contact; the ball gives back less energy than it absorbs"
         }
-    };
-    wrapped(&format!("     {told}"), 5)
+    }
 }
 
-/// The effects neglected in a hit with as many modes as it needs.
-pub fn beyond(sweep: &Sweep, scene: &Scene, units: Units) -> String {
-    let Some((truncation, _)) = sweep.truncation.zip(sweep.worst()) else { return String::new() };
+/// The effects neglected in a hit with as many modes as it needs; None for a given number of modes.
+pub fn beyond(sweep: &Sweep, scene: &Scene, units: Units) -> Option<String> {
     let closing = |i: &Impact| i.bat_speed + scene.ball_speed;
     let fastest = sweep.impacts.iter().map(closing).fold(0.0, f64::max);
-    let change = truncation * fastest;
-    let mph = miles_per_hour(change);
-    let change = units.beside(format!("{change:.1e} m/s"), format!("{mph:.1e} mph"));
+    let change = sweep.truncation.filter(|_| sweep.worst().is_some())? * fastest;
+    let change = Quantity::Speed.said(units, change);
     let count = sweep.solution.modes.len();
-    let text = format!(
+    Some(format!(
         "{count} modes; what is left out of those above changes an exit speed by {change} at most, \
          by estimate."
-    );
-    wrapped(&text, 0)
+    ))
 }
 
 /// The sweet spot by one of its definitions.
@@ -230,13 +171,15 @@ pub fn spot_lines(bat: &Bat, spot: &SweetSpot, units: Units) -> Vec<SpotLine> {
     let mut peak = |what: &str, peak: Option<Peak>, shown: &dyn Fn(f64) -> String| {
         line(what, peak.map(|p| p.x), peak.map(|p| shown(p.value)));
     };
-    let speed = |v: f64| units.inline(units.speed(v));
+    let speed = |v: f64| Quantity::Speed.said(units, v);
     peak("fastest ball", spot.exit_speed_max, &speed);
     let first =
         spot.first_separation_max.filter(|_| spot.exit_speed_max != spot.first_separation_max);
     peak("first contact", first, &speed);
-    peak("least vibration", spot.vibration_min, &|energy| units.energy(energy, 2));
-    let slow = |v: f64| units.first().speed(v);
+    peak("least vibration", spot.vibration_min, &|energy| {
+        Quantity::Energy.said(units.first(), energy)
+    });
+    let slow = |v: f64| Quantity::Speed.said(units.first(), v);
     peak("least hand speed, undamped", spot.hands_velocity_min, &slow);
     if bat.damped() {
         let shaken = |a: f64| format!("{:.0} g", gravities(a));
@@ -253,23 +196,15 @@ pub fn spot_lines(bat: &Bat, spot: &SweetSpot, units: Units) -> Vec<SpotLine> {
 }
 
 /// The sweet spot by each definition, from knob and tip.
-pub fn sweet_spot(bat: &Bat, spot: &SweetSpot, units: Units) -> String {
-    let mut out =
-        String::from("Sweet spot                             from knob            from tip\n");
-    for SpotLine { what, x } in spot_lines(bat, spot, units) {
-        let [knob, tip] = [x, bat.length() - x].map(|x| units.positions(&[x]).join(", "));
-        let _ = writeln!(out, "  {what:<36} {knob:<19}  {tip}");
-    }
-    if let Some(apart) = spot.looked_every {
-        let inch = format!("{:.2} in", inches(apart));
-        let apart = units.beside(format!("{:.1} mm", 1e3 * apart), inch);
-        let text = format!(
-            "Places were tried every {apart} only: the bat hits the ball again there, and all places would take more \
-             than about ten times as long as a usual hit. A narrower peak may be missed."
-        );
-        out.push_str(&wrapped(&text, 2));
-    }
-    out
+pub fn sweet_spot(bat: &Bat, spot: &SweetSpot, units: Units) -> Vec<Part<'static>> {
+    let coarse = spot.looked_every.map(|apart| {
+        Part::Text(format!(
+            "Places were tried every {} only: the bat hits the ball again there, and all places would take more \
+             than about ten times as long as a usual hit. A narrower peak may be missed.",
+            Quantity::Small.said(units, apart)
+        ))
+    });
+    [Part::Table(tables::sweet_spots(bat, spot, units))].into_iter().chain(coarse).collect()
 }
 
 /// The stated figures of a bat: efficiency, BBCOR, effect of an inch, swings.
@@ -278,8 +213,8 @@ pub fn stated(figures: &Figures, units: Units) -> Vec<(String, String)> {
         return vec![];
     };
     let mut lines = vec![];
-    let speed = |v: f64| units.inline(units.speed(v));
-    let place = |x: f64| units.place(x, 1);
+    let speed = |v: f64| Quantity::Speed.said(units, v);
+    let place = |x: f64| Quantity::Length.said(units, x);
     let mut line = |what: &str, value: String| lines.push((what.to_owned(), value));
     line("bat-ball speed", speed(outcome.exit_speed));
     line("collision efficiency e_A", format!("{:.3}", outcome.collision_efficiency));
@@ -294,8 +229,7 @@ pub fn stated(figures: &Figures, units: Units) -> Vec<(String, String)> {
     }
     if let Some([knob, tip]) = figures.spot.inch_off {
         let lost = |speed: f64| {
-            let by = speed - outcome.exit_speed;
-            units.beside(format!("{by:+.2} m/s"), format!("{:+.1} mph", miles_per_hour(by)))
+            Quantity::Speed.in_both(units, |scale| scale.change(speed - outcome.exit_speed))
         };
         let lost = |speed: Option<f64>| speed.map_or("no hit".to_owned(), lost);
         line("1 in off towards the knob", lost(knob));
@@ -319,70 +253,21 @@ pub fn stated(figures: &Figures, units: Units) -> Vec<(String, String)> {
 /// The heading of these figures.
 pub const STATED: &str = "Figures at the sweet spot (computed, not certified)";
 
-/// The stated figures of a bat, a line each.
-pub fn figures(figures: &Figures, units: Units) -> String {
-    let lines = stated(figures, units);
-    let line = |(what, value): &(String, String)| format!("  {what:<38} {value}\n");
-    let lines: String = lines.iter().map(line).collect();
-    if lines.is_empty() { lines } else { format!("{STATED}\n{lines}") }
-}
-
-/// How the sweet spot moves, in mm or in towards the tip, and how the best speed changes.
-pub fn moves(bat: &Bat, figures: &Figures, units: Units) -> String {
-    if figures.spot.exit_speed_max.is_none() || figures.moves.is_empty() {
-        return String::new();
-    }
-    let damped = bat.damped();
-    let row = |what: &str, [ball, vibration, speed, shaking, best]: [String; 5]| {
-        let shaking = if damped { format!(" {shaking:>11}") } else { String::new() };
-        let line = format!("{what:<26} {ball:>8} {vibration:>7} {speed:>11}{shaking}   {best}");
-        format!("{}\n", line.trim_end())
-    };
-    let heads = ["fastest", "least", "least hand", "least hand", "best"].map(str::to_owned);
-    let (unit, per, places) =
-        if units.us_first() { ("in", inches(1.0), 2) } else { ("mm", 1e3, 1) };
-    let (mph, faster) = in_trade("m/s", units.us_first());
-    let mut out = row(&format!("How it moves, {unit} to tip"), heads);
-    out += &row("", ["ball", "vibr.", "speed", "shaking", "speed"].map(str::to_owned));
-    let spot = &figures.spot;
-    for Moved { change, sweet_spot: moved } in &figures.moves {
-        let by = |of: fn(&SweetSpot) -> Option<Peak>| match (of(spot), of(moved)) {
-            (Some(before), Some(after)) => signed(per * (after.x - before.x), places),
-            _ => String::new(),
-        };
-        let faster = match (spot.exit_speed_max, moved.exit_speed_max) {
-            (Some(before), Some(after)) => {
-                let decimals = if units.us_first() { 1 } else { 2 };
-                format!("{} {mph}", signed(faster * (after.value - before.value), decimals))
-            }
-            _ => String::new(),
-        };
-        let cells = [
-            by(|s| s.exit_speed_max),
-            by(|s| s.vibration_min),
-            by(|s| s.hands_velocity_min),
-            by(|s| s.hands_acceleration_min),
-            faster,
-        ];
-        out += &row(&format!("  {change}"), cells);
-    }
-    out
-}
-
-/// The scene in words.
-pub fn scene(bat: &Bat, scene: &Scene, model: &str, units: Units) -> String {
+/// The scene in words, and the meaning of the model.
+pub fn scene(bat: &Bat, scene: &Scene, model: Model, units: Units) -> String {
     let side = if scene.pivot < 0.0 { "inside" } else { "beyond" };
     let barrel = BarrelSpeed::of(bat, scene, BarrelSpeed::BROADCAST);
     let mut out = format!(
-        "Hit with {}: model {model}\n     swing {:.1} rad/s about a point {} {side} the knob end:\n     \
+        "Hit with {}: model {}\n     swing {:.1} rad/s about a point {} {side} the knob end:\n     \
          {} where the bat is {} from the tip\n     {} at {}, cor {}\n",
         bat.title(),
+        model.name(),
         scene.swing,
-        units.inline(units.length(scene.pivot.abs())),
-        units.inline(units.speed(barrel.speed)),
-        units.inline(units.length(barrel.from_tip)),
+        Quantity::Length.said(units, scene.pivot.abs()),
+        Quantity::Speed.said(units, barrel.speed),
+        Quantity::Length.said(units, barrel.from_tip),
         scene.ball.title(),
-        units.inline(units.speed(scene.ball_speed)),
+        Quantity::Speed.said(units, scene.ball_speed),
         match scene.ball.cor_by_speed.is_empty() {
             true => scene.cor.to_string(),
             false => "by its speed".to_owned(),
@@ -392,8 +277,8 @@ pub fn scene(bat: &Bat, scene: &Scene, model: &str, units: Units) -> String {
         out += &wrapped(&format!("     the bat is edited: {}", edits::listed(bat, units)), 5);
     }
     if let Some(Wall { stiffness, mass }) = scene.wall {
-        let (stiffness, mass) = (units.stiffness(stiffness), units.inline(units.mass(mass)));
-        let _ = writeln!(out, "     the barrel's wall gives way: {stiffness}, {mass}");
+        let (k, m) = (Quantity::Stiffness.said(units, stiffness), Quantity::Mass.said(units, mass));
+        let _ = writeln!(out, "     the barrel's wall gives way: {k}, {m}");
     }
     if let Some(wall) = scene.hoop.wall() {
         out += &wrapped(&format!("     {}", wall_words(bat, scene, wall)), 5);
@@ -405,5 +290,5 @@ pub fn scene(bat: &Bat, scene: &Scene, model: &str, units: Units) -> String {
         out += "     the bat is held: energies are as its hands see them, the bat at rest;\n     \
          swinging in what holds it counts as vibration\n";
     }
-    out
+    out + &wrapped(&format!("     {}", meaning(model)), 5)
 }

@@ -4,20 +4,18 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::csv::rows;
-use crate::parts::{Column, Units, first, labels, lines, numbers, wrapped};
+use crate::parts::{Part, Quantity, Units, labels, lines, numbers, terminal, wrapped};
 use crate::report::hoop_notes::notes;
+use crate::report::tables::{HOOP_MODES, HoopRow, hoop_modes};
 use crate::report::text::edited;
 use crate::schema::{Written, document};
 use sweetspot::Bat;
-use sweetspot::base::number::{rounded, significant};
-use sweetspot::base::units::inches;
+use sweetspot::base::number::significant;
 use sweetspot::bat::edit::Edit;
 use sweetspot::modes::hoop::{HoopMode, Outline};
 use sweetspot_study::trampoline::barrel::{Barrel, HoopModel, Rebound};
 use sweetspot_study::trampoline::pressed::{BarrelCompression, HarmonicShare, PressedWall};
 use sweetspot_study::trampoline::thickness::{FACTORS, WallTried};
-
-const MM: f64 = 1e-3;
 
 /// How the barrel of a hollow bat rings, how its wall deforms under a ball, and how that affects the ball. SI units,
 /// named at the end of each member; positions count from the knob end; a value that does not exist is null. Later
@@ -89,55 +87,18 @@ pub fn document(
     })
 }
 
-/// A mode, and the distance from the tip where it moves most (m).
-type Placed = (HoopMode, f64);
-
-/// The columns of the modes.
-const COLUMNS: [Column<Placed>; 7] = [
-    Column::in_files("harmonic", |(mode, _)| mode.harmonic.into()),
-    Column::in_files("order", |(mode, _)| mode.order.into()),
-    Column::in_files("frequency_hz", |(mode, _)| mode.frequency_hz.into()),
-    Column::in_files("damping_ratio", |(mode, _)| mode.damping_ratio.into()),
-    Column::in_files("error", |(mode, _)| mode.error.into()),
-    Column::in_files("largest_at_m", |(mode, _)| mode.largest_at_m.into()),
-    Column::in_files("largest_from_tip_m", |(_, from_tip)| (*from_tip).into()),
-];
-
 /// A line for each mode, SI.
 pub fn csv(bat: &Bat, barrel: &Barrel) -> String {
     let placed = |mode: &HoopMode| (mode.clone(), bat.length() - mode.largest_at_m);
-    let modes: Vec<Placed> = barrel.hoop().modes().iter().map(placed).collect();
-    rows(&COLUMNS, &modes)
+    let modes: Vec<HoopRow> = barrel.hoop().modes().iter().map(placed).collect();
+    rows(&HOOP_MODES, &modes)
 }
 
 /// The lowest modes, at most the given number, and the effect of the wall, for the terminal.
 pub fn text(bat: &Bat, barrel: &Barrel, most: usize, units: Units) -> [String; 2] {
     let mut out = format!("Hoop modes of {}\n{}", bat.title(), edited(bat, units));
-    let [from, to] = [barrel.hoop().from(), barrel.hoop().to()];
-    let stretch = format!(
-        "  the wall as an elastic solid from {} to {} from the knob end; n waves around, m along",
-        units.inline(units.length(from)),
-        units.inline(units.length(to))
-    );
-    out += &wrapped(&stretch, 2);
-    [out + &modes(bat, barrel, most, units), sentences(bat, barrel, units)]
-}
-
-/// The lowest modes of two and more waves around.
-fn modes(bat: &Bat, barrel: &Barrel, most: usize, units: Units) -> String {
-    lines(
-        barrel.hoop().lowest(most),
-        &[
-            (numbers(5, "n"), &|mode| mode.harmonic.to_string()),
-            (numbers(4, "m"), &|mode| mode.order.to_string()),
-            (numbers(15, "frequency"), &|mode| format!("{:.2} Hz", mode.frequency_hz)),
-            (numbers(3, ""), &|_| String::new()),
-            (first(17, "relative error"), &|mode| format!("within {:.0e}", mode.error)),
-            (labels(24, "largest at, from tip"), &|mode| {
-                units.inline(units.length((bat.length() - mode.largest_at_m).max(0.0)))
-            }),
-        ],
-    )
+    out += &terminal::parts(&[Part::Table(hoop_modes(bat, barrel.hoop(), most, units))]);
+    [out, sentences(bat, barrel, units)]
 }
 
 /// The wall under the ball, the rebound, the compression and the remarks, each broken into lines.
@@ -167,7 +128,7 @@ pub fn answers(barrel: &Barrel, units: Units) -> Vec<String> {
     let BarrelCompression { deflection_m, force_n } = wall.compressed(&barrel.test.ball);
     all.push(format!(
         "Barrel compression: {} for {} between two opposite sides.",
-        units.force(force_n, 2),
+        Quantity::Force.said(units, force_n),
         small(units, deflection_m)
     ));
     all
@@ -177,13 +138,15 @@ pub fn answers(barrel: &Barrel, units: Units) -> Vec<String> {
 fn pressed(barrel: &Barrel, wall: &PressedWall, units: Units) -> String {
     let times = |over_ball| format!(" ({} times the ball)", significant(over_ball, 2));
     let ball = wall.over_ball.map_or(String::new(), times);
+    let patch = [wall.patch_half_length_m, wall.patch_half_width_m];
+    let patch = patch.map(|half| Quantity::Small.said(units, 2.0 * half)).join(" by ");
     format!(
         "Wall under a {}, {} from the tip: {}{ball}; {} thick, patch {}.",
         barrel.test.ball.name,
-        units.inline(units.length(wall.from_tip_m)),
-        units.stiffness(wall.stiffness_n_m),
+        Quantity::Length.said(units, wall.from_tip_m),
+        Quantity::Stiffness.said(units, wall.stiffness_n_m),
         small(units, wall.thickness_m),
-        patch(units, wall),
+        patch,
     )
 }
 
@@ -214,26 +177,16 @@ fn rebounded(rebound: &Rebound, units: Units) -> [String; 2] {
         ),
         format!(
             "The ball, with {}, dents the wall by about {}; {} stay in the wall.",
-            units.energy(rebound.initial_j, 0),
+            Quantity::Energy.said(units, rebound.initial_j),
             small(units, rebound.dent_m),
-            units.energy(rebound.left_in_wall_j, 1)
+            Quantity::Energy.said(units, rebound.left_in_wall_j)
         ),
     ]
 }
 
-/// Length and width of the patch.
-fn patch(units: Units, wall: &PressedWall) -> String {
-    let sides = [wall.patch_half_length_m, wall.patch_half_width_m].map(|half| 2.0 * half);
-    let [long, wide] = sides.map(|side| format!("{:.0}", side / MM));
-    let [long_in, wide_in] = sides.map(|side| format!("{:.2}", inches(side)));
-    units.beside(format!("{long} by {wide} mm"), format!("{long_in} by {wide_in} in"))
-}
-
 /// A small length (m).
 fn small(units: Units, length: f64) -> String {
-    let si = format!("{} mm", significant(length / MM, 3));
-    let us = format!("{} in", rounded(inches(length), 3));
-    units.beside(si, us)
+    Quantity::Small.in_both(units, |scale| scale.finer().text(length))
 }
 
 /// The end of a short answer for a hollow bat, with the first hoop mode; None without one.
@@ -269,7 +222,9 @@ pub fn sweep(tried: &[WallTried], units: Units) -> String {
             (labels(18, "wall under the ball"), &|one| small(units, one.thickness_m)),
             (numbers(7, "times"), &|one| format!("{:.1}", one.factor)),
             (numbers(11, "n=2, m=1"), &|one| format!("{:.0} Hz", one.frequency_hz)),
-            (numbers(15, "stiffness"), &|one| units.first().stiffness(one.stiffness_n_m)),
+            (numbers(15, "stiffness"), &|one| {
+                Quantity::Stiffness.said(units.first(), one.stiffness_n_m)
+            }),
             (numbers(7, "stiff"), &|one| format!("{:.3}", one.stiff)),
             (numbers(7, "BBCOR"), &|one| format!("{:.3}", one.wall)),
             (labels(15, "range"), &|one| format!("{:.3} to {:.3}", one.range[0], one.range[1])),

@@ -1,6 +1,6 @@
 //! The assumptions about a barrel and the limits of its model, in sentences.
 
-use crate::parts::Units;
+use crate::parts::{Quantity, Units};
 use sweetspot::Bat;
 use sweetspot::base::number::significant;
 use sweetspot::beam::wall::elastic::ASSUMED_POISSON_RATIO;
@@ -34,7 +34,7 @@ fn unpressed(barrel: &Barrel, units: Units) -> Option<String> {
         return None;
     }
     let (hoop, test) = (barrel.hoop(), &barrel.test);
-    let place = |x: f64| units.inline(units.length(x));
+    let place = |x: f64| place(units, x);
     let ball = format!("the ball at {} from the knob end", place(test.at));
     if !(hoop.from()..=hoop.to()).contains(&test.at) {
         return Some(format!("{ball} does not meet the stretch that is modelled"));
@@ -83,9 +83,14 @@ fn dented(barrel: &Barrel) -> Option<String> {
     })
 }
 
+/// A place along the bat (m).
+fn place(units: Units, x: f64) -> String {
+    units.beside(format!("{x:.4} m"), Quantity::Length.scale(true).text(x))
+}
+
 /// The notes of the solver of the modes.
 fn said(note: &Note, units: Units) -> String {
-    let place = |x: f64| units.inline(units.length(x));
+    let place = |x: f64| place(units, x);
     match note {
         Note::ThinWall { at, thickness, radius } => format!(
             "the wall is {} mm thin on a radius of {} mm, {} from the knob end: below 1/300 of the radius \

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::csv::Csv;
-use crate::parts::{Cell, Units, wrapped};
+use crate::parts::{Cell, Quantity, Units, wrapped};
 use crate::report::hit_json::scene_out;
 use crate::report::lathe_table::{TableUnits, legend, table};
 use crate::report::text::edited;
@@ -25,14 +25,14 @@ const MM: f64 = 1e-3;
 /// The title, and how the bat is swung.
 fn title(map: &LatheMap, scene: &Scene, units: Units) -> String {
     let bat = map.piece.bat();
-    let shown = TableUnits::of(units, bat.inches());
+    let shown = TableUnits::of(units, bat);
     let swing = format!(
         "  swung at {} rad/s about a point {} beyond the knob, {} at {}; per {} taken off the diameter of \
          each band, the curve between stations unchanged",
         significant(scene.swing, 4),
-        units.inline(units.length(scene.pivot)),
+        Quantity::Length.said(units, scene.pivot),
         scene.ball.title(),
-        units.inline(units.speed(scene.ball_speed)),
+        Quantity::Speed.said(units, scene.ball_speed),
         shown.per_name(),
     );
     format!("What a cut does to {}\n{}{}", bat.title(), edited(bat, units), wrapped(&swing, 4))
@@ -47,12 +47,12 @@ pub fn screen(map: &LatheMap, scene: &Scene, units: Units) -> Option<String> {
     }
     let mut out = title(map, scene, units) + "\nWhere a cut does most\n";
     most.iter().for_each(|line| out += &wrapped(&format!("  {line}"), 4));
-    Some(out + &below(map, TableUnits::of(units, map.piece.bat().inches())))
+    Some(out + &below(map, TableUnits::of(units, map.piece.bat())))
 }
 
 /// The whole text for the terminal: the title, both tables, and the text below them.
 pub fn text(map: &LatheMap, scene: &Scene, units: Units) -> [String; 4] {
-    let shown = TableUnits::of(units, map.piece.bat().inches());
+    let shown = TableUnits::of(units, map.piece.bat());
     let (per, unit) = if shown.us() { (0.0254, "in") } else { (MM, "mm") };
     let cuts = format!(
         "\nThe same, still per {}, when {} {unit} come off and all is solved again\n{}",
@@ -72,7 +72,7 @@ pub fn text(map: &LatheMap, scene: &Scene, units: Units) -> [String; 4] {
 
 /// Where a cut has the largest effects, in three lines.
 pub fn in_short(map: &LatheMap, units: Units) -> String {
-    let shown = TableUnits::of(units, map.piece.bat().inches());
+    let shown = TableUnits::of(units, map.piece.bat());
     let lines = strongest(map, units);
     let mut out = format!("Where a cut does most, per {} off the diameter\n", shown.per_name());
     lines.iter().for_each(|line| out += &wrapped(&format!("  {line}"), 4));
@@ -81,7 +81,7 @@ pub fn in_short(map: &LatheMap, units: Units) -> String {
 
 /// Where a cut changes the sweet spot, the first frequency and the highest exit speed most; a line each.
 pub fn strongest(map: &LatheMap, units: Units) -> Vec<String> {
-    let shown = TableUnits::of(units, map.piece.bat().inches());
+    let shown = TableUnits::of(units, map.piece.bat());
     let laws = [(0.0, "the same swing"), (0.5, "a swing of the same energy")];
     let line = |what: &str, answer: Answer, exponent: f64| {
         let (band, change) = map.strongest(answer, exponent)?;
@@ -103,7 +103,7 @@ pub fn strongest(map: &LatheMap, units: Units) -> Vec<String> {
 
 /// The unit of cut in [`strongest`], in words for a page.
 pub fn per(map: &LatheMap, units: Units) -> &'static str {
-    TableUnits::of(units, map.piece.bat().inches()).per_name()
+    TableUnits::of(units, map.piece.bat()).per_name()
 }
 
 /// The text below the tables.

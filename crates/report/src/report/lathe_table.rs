@@ -1,9 +1,9 @@
-//! The table of a lathe map: a row for each band, a column for each answer.
+//! The outputs of a lathe map, and its table: a row for each band, a column for each output.
 
-use crate::parts::columns::TextColumn;
-use crate::parts::{Columns, Units, numbers};
+use crate::parts::{Part, Quantity, Scale, Table, Units, terminal};
+use sweetspot::Bat;
 use sweetspot::base::number::{rounded, signed};
-use sweetspot::base::units::{inches, miles_per_hour, ounce_square_inches, ounces};
+use sweetspot::base::units::inches;
 use sweetspot_study::answers::Answer;
 use sweetspot_study::lathe::found::TurnedBand;
 use sweetspot_study::lathe::map::LatheMap;
@@ -18,11 +18,13 @@ pub struct TableUnits {
 const THIRTY_SECOND: f64 = 0.0254 / 32.0;
 /// A thousandth of an inch (m).
 const THOU: f64 = 2.54e-5;
+/// The depth of the changes of a band (m).
+const MM: f64 = 1e-3;
 
 impl TableUnits {
-    /// The requested units; where both are requested, those in which the bat was measured.
-    pub fn of(units: Units, inches: bool) -> Self {
-        Self { us: units.us_first() || units == Units::Both && inches }
+    /// The requested units; where both are requested, those of the file of the bat.
+    pub fn of(units: Units, bat: &Bat) -> Self {
+        Self { us: units.of(bat).us_first() }
     }
 
     /// Whether they are US units.
@@ -37,7 +39,7 @@ impl TableUnits {
 
     /// The unit of cut (m).
     pub fn per(self) -> f64 {
-        if self.us { THIRTY_SECOND } else { 1e-3 }
+        if self.us { THIRTY_SECOND } else { MM }
     }
 
     /// A place along the bat (m).
@@ -50,158 +52,137 @@ impl TableUnits {
 
     /// A depth (m).
     pub fn depth(self, depth: f64) -> String {
-        if self.us { format!("{:.3} in", inches(depth)) } else { format!("{:.2} mm", 1e3 * depth) }
-    }
-
-    /// How far the sweet spot moves (m).
-    fn moved(self, by: f64) -> String {
-        let far = match self.us {
-            true => format!("{:.3} in", inches(by.abs())),
-            false => format!("{:.2} mm", 1e3 * by.abs()),
-        };
-        format!("sweet spot {far} {}", if by >= 0.0 { "outward" } else { "inward" })
+        let Scale { per, decimals, name } = Quantity::Small.scale(self.us).finer();
+        format!("{:.decimals$} {name}", per * depth)
     }
 
     /// The change of an answer as part of a sentence; None for an answer without one.
     pub fn sentence(self, answer: Answer, change: f64) -> Option<String> {
-        let (what, unit, value, decimals) = match (answer, self.us) {
-            (Answer::Mass, false) => ("mass", "g", 1e3 * change, 1),
-            (Answer::Mass, true) => ("mass", "oz", ounces(change), 2),
-            (Answer::Inertia, false) => ("swing weight", "kg cm²", 1e4 * change, 1),
-            (Answer::Inertia, true) => ("swing weight", "oz in²", ounce_square_inches(change), 0),
-            (Answer::Frequency(1), _) => ("f1", "Hz", change, 2),
-            (Answer::ExitSpeed, false) => ("best ball", "m/s", change, 3),
-            (Answer::ExitSpeed, true) => ("best ball", "mph", miles_per_hour(change), 3),
-            (Answer::ExitSpeedPlace, _) => return Some(self.moved(change)),
+        let what = match answer {
+            Answer::Mass => "mass",
+            Answer::Inertia => "swing weight",
+            Answer::Frequency(1) => "f1",
+            Answer::ExitSpeed => "best ball",
+            Answer::ExitSpeedPlace => {
+                let way = if change >= 0.0 { "outward" } else { "inward" };
+                return Some(format!("sweet spot {} {way}", self.depth(change.abs())));
+            }
             _ => return None,
         };
-        Some(format!("{what} {} {unit}", signed(value, decimals)))
+        Some(format!("{what} {}", self.scale(answer).change(change)))
+    }
+
+    /// The unit of the changes of an answer.
+    fn scale(self, answer: Answer) -> Scale {
+        let usual = Quantity::of(answer).scale(self.us);
+        match (answer, self.us) {
+            (Answer::Inertia, false) => Scale { per: 1e4, decimals: 2, name: "kg cm²" },
+            (Answer::Mass | Answer::Inertia | Answer::Frequency(_), _) => usual.finer(),
+            (Answer::ExitSpeed, _) => Scale { decimals: 3, ..usual },
+            (Answer::HandsAccelerationAt(_), _) => Scale { per: 100.0, decimals: 2, name: "%" },
+            (_, false) => Scale { per: 1e3, decimals: 2, name: "mm" },
+            (_, true) => Scale { per: 1.0 / THOU, decimals: 1, name: "mil" },
+        }
     }
 }
 
-/// A column: its head in two lines, width, decimals, meaning, and the value for the change of a band.
-struct LatheColumn {
-    head: [String; 2],
-    means: &'static str,
-    width: usize,
-    decimals: usize,
+/// An output of a cut, as tables and pictures show it.
+pub struct LatheOutput {
     answer: Answer,
     exponent: f64,
-    /// The number of units of the column per SI unit.
-    scale: f64,
+    /// The head of its column.
+    head: String,
+    /// Its name.
+    pub name: String,
+    /// The unit of its changes, per unit of cut.
+    pub scale: Scale,
+    /// Its changes per metre of cut in that unit.
+    per_metre: f64,
 }
 
-impl LatheColumn {
-    fn column(&self) -> TextColumn {
-        numbers(self.width, self.head[0].clone())
+/// A change of a band, per millimetre of diameter removed, for an answer and an exponent of the swing law.
+type Change = fn(&TurnedBand, Answer, f64) -> Option<f64>;
+
+impl LatheOutput {
+    /// Its changes in every band.
+    pub fn changes(&self, map: &LatheMap, change: Change) -> Vec<Option<f64>> {
+        let of = |band| Some(self.per_metre * change(band, self.answer, self.exponent)? / MM);
+        map.found.bands.iter().map(|band| of(band).filter(|change| change.is_finite())).collect()
+    }
+
+    /// A change with its sign.
+    pub fn signed(&self, change: f64) -> String {
+        signed(change, self.scale.decimals)
     }
 }
 
-/// The meaning of a column.
-fn meaning(answer: Answer, exponent: f64) -> &'static str {
-    match answer {
-        Answer::Mass => "what the bat weighs",
-        Answer::BalancePoint => "balance point, + towards the tip",
-        Answer::Inertia => "swing weight about the point 6 in from the knob end",
-        Answer::Frequency(1) => "first bending frequency",
-        Answer::Frequency(_) => "second bending frequency",
-        Answer::Node(_) => "node of the first mode next to the tip, + towards the tip",
-        Answer::ExitSpeedPlace => "sweet spot, where the ball leaves fastest, + towards the tip",
-        Answer::ExitSpeed if exponent == 0.0 => {
-            "speed of the fastest ball, the bat swung as fast as before"
-        }
-        Answer::ExitSpeed if exponent == 0.5 => {
-            "the same, swung with the energy of before: a lighter bat is swung faster"
-        }
-        Answer::ExitSpeed => "the same, swung by the law of --swing-exponent",
-        _ => "acceleration that the hands feel of a hit, in % of what they feel now",
-    }
+/// The outputs that the map has.
+pub fn outputs(map: &LatheMap, units: TableUnits) -> Vec<LatheOutput> {
+    let law = map.terms.exponents().get(2).copied();
+    let [head, name] = law.map_or_else(Default::default, |law| {
+        [format!("n={law}"), format!("fastest ball, swing law n = {law}")]
+    });
+    let hands = |answer: &&Answer| matches!(answer, Answer::HandsAccelerationAt(_));
+    let hands = map.terms.answers.iter().find(hands).copied();
+    // A law of the batter's own leaves no room for the balance point.
+    let balance = law.is_none().then_some(Answer::BalancePoint);
+    let all = [
+        (Some(Answer::Mass), 0.0, "mass", "mass"),
+        (balance, 0.0, "bal.", "balance point, outward"),
+        (Some(Answer::Inertia), 0.0, "swing", "swing weight about 6 in from the knob end"),
+        (Some(Answer::Frequency(1)), 0.0, "f1", "frequency of mode 1"),
+        (Some(Answer::Frequency(2)), 0.0, "f2", "frequency of mode 2"),
+        (Some(Answer::Node(1)), 0.0, "node 1", "last node of mode 1, outward"),
+        (Some(Answer::ExitSpeed), 0.0, "n=0", "fastest ball, same swing"),
+        (law.map(|_| Answer::ExitSpeed), law.unwrap_or(0.0), &head, &name),
+        (Some(Answer::ExitSpeed), 0.5, "n=1/2", "fastest ball, same energy of the swing"),
+        (Some(Answer::ExitSpeedPlace), 0.0, "spot", "sweet spot, outward"),
+        (hands, 0.0, "hands", "acceleration that the hands feel"),
+    ];
+    let output = |(answer, exponent, head, name): (Option<Answer>, f64, &str, &str)| {
+        let answer = answer.filter(|answer| map.terms.answers.contains(answer))?;
+        let scale = units.scale(answer);
+        // Relative to the value for the unchanged bat, or in the unit.
+        let of = map.found.outputs.iter().find(|output| output.name == answer);
+        let whole = if scale.name == "%" { of?.value? } else { 1.0 };
+        let per_metre = units.per() * scale.per / whole;
+        let [head, name] = [head, name].map(str::to_owned);
+        Some(LatheOutput { answer, exponent, head, name, scale, per_metre })
+    };
+    all.into_iter().filter_map(output).collect()
 }
 
 /// The meanings of the columns, and of a mil.
 pub fn legend(map: &LatheMap, units: TableUnits) -> String {
-    let columns = shown(map, units);
-    let part = |column: &LatheColumn| format!("{}: {}", column.head[0], column.means);
+    let outputs = outputs(map, units);
+    let part = |output: &LatheOutput| format!("{}: {}", output.head, output.name);
+    let told = outputs.iter().filter(|output| output.head != output.name);
     let mut parts = vec!["from: where the band begins, from the knob end".to_owned()];
-    parts.extend(columns.iter().map(part));
-    if columns.iter().any(|column| column.head[1] == "mil") {
+    parts.extend(told.map(part));
+    if outputs.iter().any(|output| output.scale.name == "mil") {
         parts.push("1 mil: 0.001 in".to_owned());
     }
     format!("Columns: {}.", parts.join("; "))
 }
 
-/// The columns for the answers of the map.
-fn shown(map: &LatheMap, units: TableUnits) -> Vec<LatheColumn> {
-    let answers = &map.terms.answers;
-    let mut all = vec![];
-    let us = units.us;
-    let pick = |si: (&'static str, f64, usize), us_unit: (&'static str, f64, usize)| {
-        if us { us_unit } else { si }
-    };
-    let mut add = |answer: Answer, head: &str, width: usize, unit: (&str, f64, usize), exponent| {
-        if answers.contains(&answer) {
-            let means = meaning(answer, exponent);
-            let head = [head.to_owned(), unit.0.to_owned()];
-            let (scale, decimals) = (unit.1, unit.2);
-            all.push(LatheColumn { head, means, width, decimals, answer, exponent, scale });
-        }
-    };
-    let length = pick(("mm", 1e3, 2), ("mil", 1.0 / THOU, 1));
-    let speed = pick(("m/s", 1.0, 3), ("mph", miles_per_hour(1.0), 3));
-    add(Answer::Mass, "mass", 7, pick(("g", 1e3, 2), ("oz", ounces(1.0), 3)), 0.0);
-    let own = map.terms.exponents().get(2).copied();
-    // A law of the batter's own leaves no room for this column.
-    if own.is_none() {
-        add(Answer::BalancePoint, "bal.", 7, length, 0.0);
+/// The table of the changes of the bands, per unit of cut.
+pub fn table(map: &LatheMap, units: TableUnits, change: Change) -> String {
+    let outputs = outputs(map, units);
+    if outputs.is_empty() {
+        return "None of these outputs has a column here: --json and --csv have them.
+"
+        .to_owned();
     }
-    let inertia = pick(("kg cm²", 1e4, 2), ("oz in²", ounce_square_inches(1.0), 1));
-    add(Answer::Inertia, "swing", 8, inertia, 0.0);
-    add(Answer::Frequency(1), "f1", 7, ("Hz", 1.0, 2), 0.0);
-    add(Answer::Frequency(2), "f2", 7, ("Hz", 1.0, 2), 0.0);
-    add(Answer::Node(1), "node 1", 7, length, 0.0);
-    add(Answer::ExitSpeed, "n=0", 8, speed, 0.0);
-    if let Some(own) = own {
-        add(Answer::ExitSpeed, &format!("n={own}"), 8, speed, own);
+    let place = Quantity::Length.scale(units.us);
+    let starts = map.found.bands.iter().map(|band| vec![format!("{:.1}", place.per * band.from_m)]);
+    let mut table = Table { rows: starts.collect(), ..Table::new("", &["from"]) };
+    table.units.push(place.name);
+    for output in &outputs {
+        table.head.push(output.head.clone());
+        table.units.push(output.scale.name);
+        let cells = output.changes(map, change).into_iter();
+        let cells = cells.map(|cell| cell.map_or("-".to_owned(), |cell| output.signed(cell)));
+        table.rows.iter_mut().zip(cells).for_each(|(row, cell)| row.push(cell));
     }
-    add(Answer::ExitSpeed, "n=1/2", 8, speed, 0.5);
-    add(Answer::ExitSpeedPlace, "spot", 7, length, 0.0);
-    let hands = answers.iter().copied().find(|a| matches!(a, Answer::HandsAccelerationAt(_)));
-    if let Some(answer) = hands {
-        add(answer, "hands", 7, ("%", 100.0, 2), 0.0);
-    }
-    all
-}
-
-/// The table of `value` of a band for an answer and an exponent of the swing law, per millimetre of diameter removed.
-pub fn table(
-    map: &LatheMap,
-    units: TableUnits,
-    value: fn(&TurnedBand, Answer, f64) -> Option<f64>,
-) -> String {
-    let shown = shown(map, units);
-    if shown.is_empty() {
-        return "None of these outputs has a column here: --json and --csv have them.\n".to_owned();
-    }
-    let place = numbers(6, "from");
-    let columns = Columns::new([place].into_iter().chain(shown.iter().map(LatheColumn::column)));
-    let mut out = columns.heads();
-    let unit = if units.us { "in" } else { "cm" };
-    let second = shown.iter().map(|shown| shown.head[1].clone());
-    out += &columns.row([unit.to_owned()].into_iter().chain(second));
-    for band in &map.found.bands {
-        let x = if units.us { inches(band.from_m) } else { 100.0 * band.from_m };
-        let cell = |shown: &LatheColumn| {
-            let per_metre = value(band, shown.answer, shown.exponent)? / 1e-3;
-            let mut value = per_metre * units.per() * shown.scale;
-            if shown.head[1] == "%" {
-                // Relative to the value for the unchanged bat.
-                let mut outputs = map.found.outputs.iter();
-                value /= outputs.find(|output| output.name == shown.answer)?.value?;
-            }
-            value.is_finite().then(|| signed(value, shown.decimals))
-        };
-        let cells = shown.iter().map(|shown| cell(shown).unwrap_or_else(|| "-".to_owned()));
-        out += &columns.row([format!("{x:.1}")].into_iter().chain(cells));
-    }
-    out
+    terminal::parts(&[Part::Table(table)])
 }

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use faer::c64;
 
-use crate::parts::{Columns, Units, labels, numbers, wrapped};
+use crate::parts::{Columns, Quantity, Units, labels, numbers, wrapped};
 use crate::report::text::edited;
 use crate::schema::{Written, measured as file};
 use sweetspot::Bat;
@@ -42,7 +42,7 @@ fn source(study: &Study, units: Units) -> String {
         None => wrapped(&format!("{text}, frequencies alone"), 10),
         Some(shapes) => {
             let x = &shapes.placed.x;
-            let [first, last] = [x[0], x[x.len() - 1]].map(|x| units.place(x, 2));
+            let [first, last] = [x[0], x[x.len() - 1]].map(|x| Quantity::Length.said(units, x));
             let count = x.len();
             wrapped(&format!("{text} at {count} points, {first} to {last} from the knob end"), 10)
         }

@@ -1,12 +1,11 @@
 //! How are all results printed and written?
 //!
-//! [`text`] and [`hit_text`] make tables of modes and hits, [`json`] and [`hit_json`] their documents; the file of a
+//! [`tables`] has the tables of modes and hits, [`text`] and [`hit_text`] what is said about them, [`json`] and [`hit_json`] their documents; the file of a
 //! verb has its screen. Columns shared by pictures and CSV are in [`parts::columns`](crate::parts::columns). Nothing
 //! here computes physics.
 
 pub mod curve;
 pub mod resolved;
-pub mod damped;
 pub mod json;
 pub mod edits;
 pub mod text;
@@ -16,6 +15,8 @@ pub mod frf_set;
 pub mod sketch;
 pub mod wall_text;
 pub mod hit_text;
+pub mod tables;
+pub mod damped;
 pub mod hit_json;
 pub mod bbcor;
 pub mod aftermath;
@@ -23,7 +24,6 @@ pub mod motion;
 pub mod u_curve;
 pub mod trade;
 pub mod advice;
-pub mod answer_unit;
 pub mod trust;
 pub mod comparison;
 pub mod comparison_screen;

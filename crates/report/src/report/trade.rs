@@ -92,16 +92,12 @@ pub fn report(bat: &Bat, trade: &Trade, full: bool) -> (String, Vec<Part<'static
     let shown: Vec<TradeRow> =
         shown.into_iter().step_by(step).map(|run| TradeRow::of(run, trade)).collect();
     let mut parts =
-        vec![Part::List(notes), Part::Table(Table::of("Front", &COLUMNS, &shown, Units::Si))];
+        vec![Part::List(notes), Part::Table(Table::of("", &COLUMNS, &shown, Units::Si))];
     if full {
         let planner: Vec<TradeRow> =
             trade.planner.iter().map(|run| TradeRow::of(run, trade)).collect();
-        parts.extend([
-            Part::Heading(
-                "The planner's choices, beside the fastest run within the same tolerance",
-            ),
-            Part::Table(Table::of("Planner", &PLANNER, &planner, Units::Si)),
-        ]);
+        let caption = "The planner's choices, beside the fastest run within the same tolerance";
+        parts.push(Part::Table(Table::of(caption, &PLANNER, &planner, Units::Si)));
     }
     let words = if full { trade.words.clone() } else { words::planner(&trade.runs) };
     parts.extend([Part::Heading("In words"), Part::List(words)]);

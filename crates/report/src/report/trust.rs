@@ -4,11 +4,10 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::analysis::Analysis;
-use crate::parts::{Columns, Units, WIDE, first, wrapped};
-use crate::report::answer_unit::{AnswerUnit, decimals};
+use crate::parts::cell::two_digits;
+use crate::parts::{Columns, Quantity, Units, WIDE, first, wrapped};
 use crate::report::text::edited;
 use sweetspot::base::number::{bound, percent, significant};
-use sweetspot::base::units::{inches, ounces};
 use sweetspot::bat::material::Scatter;
 use sweetspot::collision::Model;
 use sweetspot::collision::figures::BarrelSpeed;
@@ -38,17 +37,17 @@ pub fn in_short(analysis: &Analysis, units: Units) -> String {
     let open = |answer: Answer| {
         about(analysis, answer, units).map_or(String::new(), |open| format!(", {open},"))
     };
-    let shown = |kind: AnswerUnit, value: f64| kind.shown(units, value);
+    let shown = |kind: Quantity, value: f64| kind.said(units, value);
     let told = format!(
         "Sweet spot: {} from the knob{} {} from the tip; there the ball leaves at {}{} after a swing of {} and a \
          pitch of {}.",
-        shown(AnswerUnit::Length, place.value),
+        shown(Quantity::Length, place.value),
         open(Answer::ExitSpeedPlace),
-        shown(AnswerUnit::Length, bat.length() - place.value),
-        shown(AnswerUnit::Speed, speed.value),
+        shown(Quantity::Length, bat.length() - place.value),
+        shown(Quantity::Speed, speed.value),
         open(Answer::ExitSpeed),
-        shown(AnswerUnit::Speed, BarrelSpeed::of(bat, &task.scene, BarrelSpeed::BROADCAST).speed),
-        shown(AnswerUnit::Speed, task.scene.ball_speed)
+        shown(Quantity::Speed, BarrelSpeed::of(bat, &task.scene, BarrelSpeed::BROADCAST).speed),
+        shown(Quantity::Speed, task.scene.ball_speed)
     );
     [told].into_iter().chain(doubts(verdict, units)).map(|text| wrapped(&text, 0)).collect()
 }
@@ -74,9 +73,9 @@ fn scene(analysis: &Analysis, units: Units) -> String {
     };
     format!(
         "  {}; swing {}, pitch {}{model}",
-        AnswerUnit::Length.shown(units, bat.length()),
-        AnswerUnit::Speed.shown(units, barrel.speed),
-        AnswerUnit::Speed.shown(units, scene.ball_speed)
+        Quantity::Length.said(units, bat.length()),
+        Quantity::Speed.said(units, barrel.speed),
+        Quantity::Speed.said(units, scene.ball_speed)
     )
 }
 
@@ -101,13 +100,13 @@ pub fn table(analysis: &Analysis, units: Units) -> String {
     let mut out = columns.heads();
     let mut row = |what: &str, answer: Answer| {
         let Some(estimate) = spread.of(answer) else { return };
-        let kind = AnswerUnit::of(answer);
+        let kind = Quantity::of(answer);
         let mostly = spread.mostly(answer).map_or("", |(source, _)| word(source));
         let open = about(analysis, answer, units).unwrap_or_default();
-        let value = kind.shown(units, estimate.value);
+        let value = kind.said(units, estimate.value);
         out += &columns.row([&format!("  {what}"), &value, &open, mostly]);
         if answer == Answer::ExitSpeedPlace {
-            let tip = kind.shown(units, analysis.bat.length() - estimate.value);
+            let tip = kind.said(units, analysis.bat.length() - estimate.value);
             out += &columns.row(["    from tip", &tip, "", ""]);
         }
     };
@@ -153,14 +152,13 @@ fn doubted(doubt: &Doubt, units: Units) -> String {
         Doubt::Shear(text) => format!("Shear is left out: {text}."),
         Doubt::Dent(wall, held) => {
             let us = units.us_first();
-            let (per, digits, unit) = if us { (inches(1.0), 2, "in") } else { (1e3, 1, "mm") };
-            let deep = |length: f64| format!("{:.digits$}", per * length);
+            let scale = Quantity::Small.scale(us);
             let [low, high] = wall.bbcor.range;
             format!(
-                "The wall dents by {} of its {} {unit}: beyond half of it this theory ends; the ball's figures are \
+                "The wall dents by {} of its {}: beyond half of it this theory ends; the ball's figures are \
                  rough, {}BBCOR {:.3} ({:.3} stiff; {low:.3} to {high:.3}).",
-                deep(wall.dent_m),
-                deep(wall.thickness_m),
+                scale.value(wall.dent_m),
+                scale.text(wall.thickness_m),
                 if *held { "" } else { "free " },
                 wall.bbcor.with,
                 wall.bbcor.stiff
@@ -174,7 +172,9 @@ fn doubted(doubt: &Doubt, units: Units) -> String {
             "The fastest ball is struck again as it leaves: small changes move that far.".to_owned()
         }
         Doubt::BallLaw => {
-            "Beyond the ball's measured law: over 2 ms in touch, or under 0.44 returned.".to_owned()
+            "Beyond the ball's measured law: over 2 ms in touch, under 0.44 returned, or pressed harder than by a \
+             rigid wall at 80 m/s."
+                .to_owned()
         }
         Doubt::ExitSpeeds { error } => format!(
             "Exit speeds are less accurate than was asked: the worst within {} of the closing speed.",
@@ -202,7 +202,7 @@ pub fn about(analysis: &Analysis, answer: Answer, units: Units) -> Option<String
     let more = ball || bent || analysis.verdict.bat_is_open();
     // A lower limit is shown in one unit.
     let (more, units) = if more { (" or more", units.first()) } else { ("", units) };
-    Some(format!("± {}{more}", AnswerUnit::of(answer).about(units, deviation)))
+    Some(format!("± {}{more}", Quantity::of(answer).about(units, deviation)))
 }
 
 /// The uncertainty of the bat, and the resulting one of its first frequency.
@@ -212,11 +212,7 @@ fn bat_first(analysis: &Analysis, units: Units) -> String {
     let find = |input: Input| spread.sources.iter().find(|source| source.input == input);
     let share = |source: &Source| format!("{} %", significant(100.0 * source.deviation, 2));
     told.extend(materials(bat, spread));
-    let small = |si: (f64, &str), us: (f64, &str), value: f64| {
-        let (factor, unit) = if units.us_first() { us } else { si };
-        format!("{} {unit}", significant(factor * value, 2))
-    };
-    let length = |source: &Source| small((1e3, "mm"), (inches(1.0), "in"), source.deviation);
+    let length = |source: &Source| Quantity::Small.about(units.first(), source.deviation);
     let readings = match (diameters_read_to(bat), bat.profile().formulas.is_some()) {
         // Unless calipers with another error were given.
         (Some(read), _)
@@ -232,7 +228,7 @@ fn bat_first(analysis: &Analysis, units: Units) -> String {
         (Input::Diameters, &*readings, &length as &dyn Fn(&Source) -> String),
         (Input::Length, "a rule by", &length),
         (Input::Mass, "a scale by", &|source| {
-            small((1e3, "g"), (ounces(1.0), "oz"), source.deviation)
+            Quantity::Mass.about(units.first(), source.deviation)
         }),
         (Input::Tap, "a tapped note by", &share),
         (Input::Patch, "the ball's patch by a factor of", &times),
@@ -251,7 +247,7 @@ fn bat_first(analysis: &Analysis, units: Units) -> String {
     }
     let range = spread.of(Answer::Frequency(1)).and_then(|open| Some((open.value, open.range()?)));
     let range = range.map_or(String::new(), |(value, [low, high])| {
-        let digits = decimals(0.5 * (high - low));
+        let digits = two_digits(0.5 * (high - low));
         format!(
             "; f1, {value:.1} Hz here, is {low:.digits$} to {high:.digits$} Hz in two bats of three"
         )
@@ -297,7 +293,7 @@ fn settled_by(analysis: &Analysis, units: Units) -> Option<String> {
         let free = bat.fixtures().rigid_modes() == 2;
         let node = solution.modes.first().and_then(|mode| mode.nodes.first()).filter(|_| free);
         let hold = node.map_or("Tap it".to_owned(), |x| {
-            format!("Tap it, held loosely {} from the knob", AnswerUnit::Length.shown(units, *x))
+            format!("Tap it, held loosely {} from the knob", Quantity::Length.said(units, *x))
         });
         return Some(format!(
             "{hold}, type the note into its file, \"weighed\": {{ \"first_bending_hz\": ... }}, and f1 is \
@@ -305,7 +301,7 @@ fn settled_by(analysis: &Analysis, units: Units) -> Option<String> {
         ));
     }
     by(Answer::Mass, Input::Density).then(|| {
-        let known = AnswerUnit::Mass.about(units, task.readings.mass);
+        let known = Quantity::Mass.about(units, task.readings.mass);
         format!(
             "Weigh it, type the \"mass\" into \"weighed\" of its file, and it is known to {known}."
         )

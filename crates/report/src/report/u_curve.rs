@@ -87,14 +87,14 @@ pub fn report(
     let above = "> n: not reached with n elements".to_owned();
     let mut parts = vec![
         Part::List(notes),
-        Part::Table(Table::of("Where frequency 1 is lost", &LOSSES, &lost, Units::Si)),
+        Part::Table(Table::of("", &LOSSES, &lost, Units::Si)),
         Part::List([above].into_iter().chain(curves.iter().filter_map(ends)).collect()),
     ];
     let last = reference.omegas.len() - 1;
     let first = (0, "Relative error of the first frequency");
     let last = (last > 0).then_some((last, "Relative error of the last frequency"));
     for (mode, title) in [first].into_iter().chain(last).filter(|_| full) {
-        parts.extend([Part::Heading(title), Part::Table(table(curves, mode))]);
+        parts.push(Part::Table(table(curves, mode, title)));
     }
     (title, parts)
 }
@@ -116,9 +116,9 @@ fn ways(curves: &[Curve]) -> Vec<(&Curve, SolverFrequency)> {
 }
 
 /// The error of one mode (from 0) by rising number of elements.
-fn table(curves: &[Curve], mode: usize) -> Table {
+fn table(curves: &[Curve], mode: usize, title: &str) -> Table {
     let ways = ways(curves);
-    let mut table = Table::new("Errors", &["n"]);
+    let mut table = Table::new(title, &["n"]);
     table.units.push("");
     for (curve, way) in &ways {
         table.head.push(solver_name(curve.solver).to_owned());

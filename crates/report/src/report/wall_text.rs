@@ -1,9 +1,8 @@
 //! The effect of the wall of a hollow barrel in a hit, in words.
 
-use crate::parts::{Fact, Units};
+use crate::parts::{Fact, Quantity, Units};
 use sweetspot::Bat;
 use sweetspot::base::number::significant;
-use sweetspot::base::units::inches;
 use sweetspot::collision::Scene;
 use sweetspot::collision::hoop_wall::HoopWall;
 use sweetspot::collision::wall_figures::WallFigures;
@@ -22,15 +21,13 @@ pub fn wall_words(bat: &Bat, scene: &Scene, wall: &HoopWall) -> String {
 
 /// How a wall gives way.
 pub fn by(wall: &HoopWall) -> String {
-    match wall.modes().len() {
-        0 => "at once, without a hoop mode slow enough to ring".to_owned(),
-        modes => format!("by {modes} hoop modes"),
-    }
+    let modes = wall.modes().len();
+    if modes == 0 { "at once".to_owned() } else { format!("by {modes} hoop modes") }
 }
 
 /// The effect of the wall of a hollow barrel at a place, and on BBCOR there.
 pub fn wall_facts(wall: &WallFigures, units: Units) -> Vec<Fact> {
-    let short = |x: f64| units.beside(format!("{:.1} mm", 1e3 * x), format!("{:.2} in", inches(x)));
+    let short = |x: f64| Quantity::Small.said(units, x);
     let [along, around] = wall.patch_half_lengths_m.map(|half| 2.0 * half);
     let [low, high] = wall.bbcor.range;
     let deep =
@@ -42,7 +39,7 @@ pub fn wall_facts(wall: &WallFigures, units: Units) -> Vec<Fact> {
             "wall under the ball",
             format!(
                 "{}, {:.1} times the ball's",
-                units.stiffness(wall.stiffness_n_m),
+                Quantity::Stiffness.said(units, wall.stiffness_n_m),
                 wall.stiffness_over_ball
             ),
         ),

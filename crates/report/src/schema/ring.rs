@@ -1,7 +1,7 @@
 //! The motion of a bat in time, `sweetspot-ring/1`, and the load on it in a hit.
 
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 use crate::schema::document;
 use crate::schema::hit::Impact;
@@ -18,12 +18,24 @@ use sweetspot::collision::strength::Load;
 #[serde(untagged)]
 pub enum RingFile {
     /// After a hit.
-    Hit(Box<AfterHit>),
+    Hit(Box<Struck>),
     /// After a blow, under a force or from an initial shape.
     Motion(Motion),
 }
 
 document!(RingFile, "ring");
+
+/// A hit and the motion after it.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct Struck {
+    /// The motion.
+    #[serde(flatten)]
+    pub motion: AfterHit,
+    /// The hit itself, as in a hit file.
+    pub impact: Impact,
+    /// Neglected effects and their consequences.
+    pub ignored: Vec<String>,
+}
 
 /// The motion after a hit, relative to the swing.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
@@ -50,13 +62,17 @@ pub struct AfterHit {
     /// Relative change of the largest strain when a quarter of the modes is omitted.
     pub strain_error: f64,
     /// The largest strain of every place in the whole time.
-    pub along: Along,
+    #[serde(serialize_with = "Along::of")]
+    #[schemars(with = "Along")]
+    pub along: Vec<Strained>,
     /// The load relative to the strength of the materials; empty where that is not known.
     pub strength: Vec<Load>,
-    /// The hit itself, as in a hit file.
-    pub impact: Impact,
-    /// Neglected effects and their consequences.
-    pub ignored: Vec<String>,
+    /// End of the time considered (s).
+    #[serde(skip)]
+    pub until: f64,
+    /// Whether the bat is damped; without damping its vibration has no end, and no size that a hand feels.
+    #[serde(skip)]
+    pub damped: bool,
 }
 
 /// The largest strain along the bat.
@@ -68,6 +84,14 @@ pub struct Along {
     pub strain_max: Vec<f64>,
     /// Largest stress of the surface at each place (Pa).
     pub stress_max_pa: Vec<f64>,
+}
+
+impl Along {
+    fn of<S: Serializer>(places: &[Strained], out: S) -> Result<S::Ok, S::Error> {
+        let all = |of: fn(&Strained) -> f64| places.iter().map(of).collect();
+        let [x_m, strain_max] = [all(|at| at.x_m), all(|at| at.strain)];
+        Self { x_m, strain_max, stress_max_pa: all(|at| at.stress_pa) }.serialize(out)
+    }
 }
 
 /// The deflection along the bat in time.

@@ -89,8 +89,8 @@ pub struct AimedTarget {
     pub found: Option<f64>,
     /// Whether it is met.
     pub met: bool,
-    /// Decrease of the norm (mm) if the binding bound is relaxed by one unit; 0 if no bound binds, null if the target
-    /// is missed.
+    /// Decrease of the norm (mm), to which the search adds the other free choices, if the binding bound is relaxed by
+    /// one unit; 0 if no bound binds, null if the target is missed.
     pub price_mm: Option<f64>,
     /// Its allowed range.
     #[serde(skip)]

@@ -40,17 +40,9 @@ pub fn cuts(stations: &[Station], pass: f64) -> Vec<StationCut> {
         if off.abs() < LEAST {
             return None;
         }
-        let count = (off / pass - 1e-9).ceil().max(1.0) as usize;
-        let passes = match off > 0.0 {
-            true => (1..=count).map(|k| off * k as f64 / count as f64).collect(),
-            false => vec![],
-        };
-        Some(StationCut {
-            x_m: station.x,
-            from_m: station.old,
-            to_m: station.new,
-            passes_m: passes,
-        })
+        let count = if off > 0.0 { (off / pass - 1e-9).ceil().max(1.0) as usize } else { 0 };
+        let passes_m = (1..=count).map(|k| off * k as f64 / count as f64).collect();
+        Some(StationCut { x_m: station.x, from_m: station.old, to_m: station.new, passes_m })
     };
     stations.iter().filter_map(cut).collect()
 }

@@ -35,7 +35,7 @@ const ANEW: usize = 4;
 const FINER: [f64; 4] = [1.0, 10.0, 100.0, 1000.0];
 
 /// The least change of a bat, before it is written.
-struct Least {
+struct LeastChange {
     bench: Bench,
     found: Searched,
     /// Worst miss, in tolerances.
@@ -130,7 +130,7 @@ impl Outcome {
 }
 
 /// The least change on that bench.
-fn least(bench: Bench, wish: &Wish, bands: &[Band], wood: Option<String>) -> Result<Least> {
+fn least(bench: Bench, wish: &Wish, bands: &[Band], wood: Option<String>) -> Result<LeastChange> {
     let limits = Limits::new(wish, &bench.bat);
     let search = Search::new(&bench, &limits);
     let start = vec![0.0; bench.unknowns()];
@@ -139,7 +139,7 @@ fn least(bench: Bench, wish: &Wish, bands: &[Band], wood: Option<String>) -> Res
     let misses = bands.iter().zip(&found.values).map(|(band, value)| band.miss(*value));
     let miss = misses.fold(0.0, f64::max);
     drop(search);
-    Ok(Least { bench: bench.clone(), found, miss, norm, wood })
+    Ok(LeastChange { bench: bench.clone(), found, miss, norm, wood })
 }
 
 /// The data for writing a change.
@@ -151,8 +151,8 @@ struct Writing<'a> {
 }
 
 impl Writing<'_> {
-    fn outcome(self, least: Least) -> Result<Outcome> {
-        let Least { bench, found, wood, .. } = least;
+    fn outcome(self, least: LeastChange) -> Result<Outcome> {
+        let LeastChange { bench, found, wood, .. } = least;
         let all = vec![true; self.bands.len()];
         let limits = Limits::new(self.wish, &bench.bat);
         let search = Search::new(&bench, &limits);

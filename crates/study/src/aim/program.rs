@@ -71,7 +71,7 @@ impl Program {
     /// The minimum; `None` if the limits contradict each other.
     pub fn solve(&self) -> Option<Least> {
         let (n, m) = (self.form.len(), self.wishes.len());
-        let mut rows = Rows::default();
+        let mut rows = SparseRows::default();
         let mut sides = vec![];
         for (i, Elastic { wish, .. }) in self.wishes.iter().enumerate() {
             let slack = Some(n + i);
@@ -121,13 +121,13 @@ impl Program {
 
 /// Rows `a·z ≤ b`, as their entries that are not 0.
 #[derive(Default)]
-struct Rows {
+struct SparseRows {
     entries: [Vec<usize>; 2],
     values: Vec<f64>,
     bounds: Vec<f64>,
 }
 
-impl Rows {
+impl SparseRows {
     /// Adds `sign · row·p − t ≤ bound` and returns its number, unless the bound is infinite.
     fn at_most(
         &mut self,

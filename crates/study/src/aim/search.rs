@@ -51,6 +51,12 @@ impl Weights {
         const PENALTY: f64 = 1e3;
         Self { size: 1.0, miss: vec![PENALTY; bands] }
     }
+
+    /// Whether these values meet all bands that have a price.
+    fn are_met(&self, bands: &[Band], values: &[f64]) -> bool {
+        let mut asked = bands.iter().zip(values).zip(&self.miss);
+        asked.all(|((band, value), price)| price.min(1.0) * band.miss(*value) <= MISSED)
+    }
 }
 
 /// The end of a search.
@@ -163,9 +169,9 @@ impl<'a> Search<'a> {
             let program = self.program((&p, &look.values, &slopes), bands, weights);
             let mut least = self.solve(program, &p, &mut rooms)?;
             least.prices = asked(&least.prices, weights);
-            let ended = |p: Vec<f64>, values: Vec<f64>, bats: usize, stopped| Searched {
-                p,
-                values,
+            let ended = |p: &[f64], look: &Look, bats: usize, stopped| Searched {
+                p: p.to_vec(),
+                values: look.values.clone(),
                 slopes: slopes.clone(),
                 prices: least.prices.clone(),
                 iterations: iteration,
@@ -173,17 +179,17 @@ impl<'a> Search<'a> {
                 stopped,
             };
             let step = largest(&p, &least.p);
-            let merit = match std::mem::take(&mut beyond) {
-                true => f64::INFINITY,
-                false => self.merit(&p, &look.values, bands, weights),
-            };
+            let mut merit = self.merit(&p, &look.values, bands, weights);
+            if std::mem::take(&mut beyond) {
+                merit = f64::INFINITY;
+            }
             let Some((next, taken, tried)) = self.descend((&p, merit), &least.p, bands, weights)
             else {
                 // No part of a step improves the bat although the slopes are its own: there is no better bat nearby.
                 if of_slopes == p || step <= 10.0 * STILL {
-                    return Ok(ended(p, look.values, count, None));
+                    return Ok(ended(&p, &look, count, None));
                 }
-                found = Some(ended(p.clone(), look.values.clone(), count, Some(STEPS_TAKEN)));
+                found = Some(ended(&p, &look, count, Some(STEPS_TAKEN)));
                 slopes.clear();
                 continue;
             };
@@ -192,11 +198,8 @@ impl<'a> Search<'a> {
             let gained = merit - self.merit(&p, &look.values, bands, weights);
             let no_gain = merit.is_finite() && gained.abs() < NO_GAIN * merit.abs();
             let still = step < STILL || no_gain;
-            found =
-                Some(ended(p.clone(), look.values.clone(), count, (!still).then_some(STEPS_TAKEN)));
-            let asked = bands.iter().zip(&look.values).zip(&weights.miss);
-            let mut misses = asked.map(|((band, value), price)| price.min(1.0) * band.miss(*value));
-            if still || met && misses.all(|miss| miss <= MISSED) {
+            found = Some(ended(&p, &look, count, (!still).then_some(STEPS_TAKEN)));
+            if still || met && weights.are_met(bands, &look.values) {
                 break;
             }
         }

@@ -6,7 +6,7 @@
 use crate::aim::rules::{Rule, RuleSet};
 use crate::answers::Answer;
 use crate::engine::{
-    Bat, Complaint, Error, Material, Quantity, Result, Weighed, inches, ounces, significant,
+    Bat, Complaint, Error, INCH, Material, Quantity, Result, Weighed, inches, ounces, significant,
 };
 
 /// A quantity that can be a target.
@@ -292,7 +292,6 @@ impl Wish {
 
     /// The grid of the new bat's stations.
     pub fn grid(&self, bat: &Bat) -> Grid {
-        const INCH: f64 = 0.0254;
         let (every, round) = if bat.inches() { (0.5 * INCH, 0.005 * INCH) } else { (0.01, 1e-4) };
         Grid { every: self.stations.unwrap_or(every), round: self.round.unwrap_or(round) }
     }

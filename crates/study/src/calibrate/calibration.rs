@@ -198,8 +198,7 @@ impl Calibration {
             Search { wood: &wood, readings: &readings, held: &plan.held, about: [0.0; UNKNOWNS] };
         let properties = Property::of(wood.regions());
         if let Some(held) = plan.held.iter().find(|held| !properties.contains(held)) {
-            let expected = "E, G or density: the barrel has its own wood with --regions only";
-            return Err(Error::value("--hold", held.name(), expected));
+            return Err(Error::value("--hold", held.name(), "E, G or density without --regions"));
         }
         if search.free().is_empty() {
             return Err(Error::value("--hold", "everything", "something that is not held"));
@@ -301,10 +300,9 @@ fn far(data: usize) -> f64 {
 fn check(bat: &Bat, readings: &BatReadings, pivot: f64) -> Result<()> {
     let rigid = [readings.mass.is_some(), readings.balance_point.is_some()];
     if rigid == [false; 2] && readings.pendulum.is_none() && readings.lines.is_empty() {
-        let alone = |tone: &RingDown| {
+        let alone = readings.ring_down.first().map_or(String::new(), |tone| {
             format!("; \"ring_down\" alone tells the loss factor, {:.3e}", tone.loss_factor())
-        };
-        let alone = readings.ring_down.first().map(alone).unwrap_or_default();
+        });
         let expected = format!("\"mass\", \"balance_point\", \"pendulum\" or \"lines\"{alone}");
         let found = "nothing that was measured of E, G and density";
         return Err(Error::value("readings", found, expected));

@@ -164,7 +164,7 @@ pub struct Candidate {
 }
 
 /// A line to be labelled.
-struct HeardLine {
+struct OpenLine {
     /// Its place in the readings.
     place: usize,
     /// Logarithm of its frequency, and its error.
@@ -176,7 +176,7 @@ struct HeardLine {
 }
 
 /// The lines by rising frequency, so that labels rise with them.
-pub struct Lines(Vec<HeardLine>);
+pub struct Lines(Vec<OpenLine>);
 
 impl Lines {
     /// The lines of readings, with their given labels.
@@ -188,16 +188,16 @@ impl Lines {
         let line = |(place, line): (usize, &SpectralLine)| {
             let value = line.frequency.value;
             let sigma = (line.frequency.deviation / value).hypot(readings.model.max(SEARCHED));
-            HeardLine { place, log: value.ln(), sigma, told: labels[place], other }
+            OpenLine { place, log: value.ln(), sigma, told: labels[place], other }
         };
-        let mut all: Vec<HeardLine> = readings.lines.iter().enumerate().map(line).collect();
+        let mut all: Vec<OpenLine> = readings.lines.iter().enumerate().map(line).collect();
         all.sort_by(|a, b| a.log.total_cmp(&b.log));
         Self(all)
     }
 
     /// Price of the labels that differ from the given ones.
     fn told_price(&self, labels: &Labels) -> f64 {
-        let changed = |line: &&HeardLine| line.told.is_some() && line.told != labels[line.place];
+        let changed = |line: &&OpenLine| line.told.is_some() && line.told != labels[line.place];
         self.0.iter().filter(changed).map(|line| line.other).sum()
     }
 

@@ -272,15 +272,22 @@ impl<'a> Sought<'a> {
     /// Largest distance from the peak at which the value is lower by at most `by`, on the side where that is farther.
     fn reach(&self, peak: Peak, by: f64, value: impl Fn(&Glance) -> Option<f64>) -> f64 {
         let floor = peak.value - by;
-        let enough =
-            |x: f64| self.hitter.glance(x).and_then(|g| value(&g)).is_some_and(|v| v >= floor);
+        let enough = |seen: &Option<Glance>| {
+            seen.as_ref().and_then(&value).is_some_and(|value| value >= floor)
+        };
         let side = |end: f64| {
             // From the peak outwards, doubling the distance; a distant maximum is a different one.
-            let mut far = self.located * self.length * (end - peak.x).signum();
-            while far.abs() < (end - peak.x).abs() && enough(peak.x + far) {
-                far *= 2.0;
+            let (most, sign) = ((end - peak.x).abs(), (end - peak.x).signum());
+            let mut far = self.located * self.length;
+            loop {
+                let next = [1.0, 2.0, 4.0, 8.0].map(|times| far * times);
+                let seen = self.hitter.glances(&next.map(|far| peak.x + sign * far.min(most)));
+                let last = (0..next.len()).find(|k| next[*k] >= most || !enough(&seen[*k]));
+                match last {
+                    Some(last) => return next[last].min(most),
+                    None => far *= 16.0,
+                }
             }
-            far.abs().min((end - peak.x).abs())
         };
         let ends = [0.5 * self.length, self.length];
         ends.map(side).into_iter().fold(self.located * self.length, f64::max)

@@ -120,7 +120,7 @@ const MODES: usize = 3;
 
 /// All rows, the bat's body first. Places are there twice: from the knob end and from the tip.
 pub fn figures(bats: &[Contender]) -> Vec<ComparedFigure> {
-    let mut rows = Rows { bats, all: vec![] };
+    let mut rows = FigureRows { bats, all: vec![] };
     rows.exact("length", "length", Unit::Metres, |c| c.bat.length());
     rows.exact("mass", "mass", Unit::Kilograms, |c| c.inertia.mass);
     rows.place("balance_point", "balance point", |c| Some(Figure::exact(c.inertia.balance_point)));
@@ -177,12 +177,12 @@ pub fn speeds(bats: &[Contender], from: From, distances: &[f64]) -> Vec<Compared
     distances.iter().map(row).collect()
 }
 
-struct Rows<'a> {
+struct FigureRows<'a> {
     bats: &'a [Contender],
     all: Vec<ComparedFigure>,
 }
 
-impl Rows<'_> {
+impl FigureRows<'_> {
     fn add(
         &mut self,
         key: &str,

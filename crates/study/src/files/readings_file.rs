@@ -195,8 +195,7 @@ fn each_once(node: &Node, lines: &[SpectralLine]) -> Result<()> {
         lines[..k].iter().any(|line| same_mode(line) || hz > 0.0 && line.frequency.value == hz)
     };
     mistakes::all((0..lines.len()).filter(|k| again(*k)).map(|k| {
-        let expected = "every mode once, and every line once";
-        Err::<(), _>(node.item(k).error("a line a second time", expected))
+        Err::<(), _>(node.item(k).error("a line a second time", "every mode once, every line once"))
     }))
     .map(|_| ())
 }

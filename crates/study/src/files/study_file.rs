@@ -13,8 +13,8 @@ use crate::files::asked;
 use crate::files::form::{Form, later, number, text, whole};
 use crate::files::study_vary::{VariationForm, Varied, VariedFile, varied};
 use crate::files::written::{Members, written};
-use crate::many::design::{Axis, Design, Spread, Wanted};
-use crate::many::rows::Asked;
+use crate::many::design::{Axis, Design, DesignTerms, PointSpread};
+use crate::many::rows::Questions;
 
 /// Default number of points.
 const POINTS: u64 = 1000;
@@ -33,7 +33,7 @@ pub struct StudyFile {
     /// The rows.
     pub design: Design,
     /// The outputs for every bat.
-    pub asked: Asked,
+    pub asked: Questions,
     /// The names of the answers, as written.
     pub outputs: Vec<String>,
     /// Members about random numbers in a study without any.
@@ -121,8 +121,8 @@ written! {
         /// Triples of two paths that are drawn and the correlation of their normal scores.
         correlations = later::<Vec<(String, String, f64)>>();
         /// How points are spread. Without it sobol.
-        design = Form::of::<String>(|node| node.word(&Spread::ALL.map(|one| (one.name(), one))))
-            .saying("enum", json!(Spread::ALL.map(Spread::name)));
+        design = Form::of::<String>(|node| node.word(&PointSpread::ALL.map(|one| (one.name(), one))))
+            .saying("enum", json!(PointSpread::ALL.map(PointSpread::name)));
         /// Points drawn for each combination of the lists. Without it 1000.
         points = whole().saying("minimum", 1);
         /// Another seed draws other points. By default 0.
@@ -140,9 +140,9 @@ written! {
         let (outputs, answers) = outputs.into_iter().unzip();
         let scene = scene_of(of.at("scene"));
         let scene = of.mistakes.note(scene);
-        let spread = design.unwrap_or(Wanted::default().spread);
+        let spread = design.unwrap_or(DesignTerms::default().spread);
         let (points, seed) = (points.unwrap_or(POINTS), seed.unwrap_or_default());
-        let mut wanted = Wanted { points, seed, spread, ..Wanted::default() };
+        let mut wanted = DesignTerms { points, seed, spread, ..DesignTerms::default() };
         let varied = of.at("vary").map_or(Ok(vec![]), |node| varied(node, &mut wanted));
         let varied = of.mistakes.note(varied);
         if let Some(node) = of.at("correlations") {
@@ -153,7 +153,7 @@ written! {
         let drawing = ["design", "points", "seed"].into_iter().filter(|key| of.at(key).is_some());
         let idle = if wanted.drawn.is_empty() { drawing.collect() } else { vec![] };
         let design = Design::new(wanted).map_err(|error| of_design(of, error))?;
-        let asked = Asked { answers, tolerance: tol.unwrap_or(1e-4) };
+        let asked = Questions { answers, tolerance: tol.unwrap_or(1e-4) };
         let place = of.at("vary").or(of.at("bat")).unwrap_or(of.node()).place();
         let naming = ["bat", "ball"].map(|key| of.at(key).unwrap_or(of.node()).place());
         Ok(StudyFile { bats: bat, ball, scene, varied, design, asked, outputs, idle, place, naming })

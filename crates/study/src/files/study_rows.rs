@@ -14,8 +14,8 @@ use crate::comparison::contender::Figure;
 use crate::engine::{Ball, Bat, Error, Result, Setup, marks, scene_file, shortest};
 use crate::files::study_file::StudyFile;
 use crate::files::study_vary::VariedFile;
-use crate::many::design::{MOST_ROWS, Row};
-use crate::many::rows::{Asked, BatAnswers, Trial};
+use crate::many::design::{DesignRow, MOST_ROWS};
+use crate::many::rows::{BatAnswers, BatTrial, Questions};
 use sweetspot::files::ball_file::written;
 
 /// Combinations of lists, and rows, that are tried.
@@ -46,7 +46,7 @@ pub(super) struct Varying {
     /// Its document, or why it is not a bat.
     pub document: std::result::Result<Value, String>,
     /// A row in which it is a valid bat, as a model for the others, and that bat; `None` if there is none.
-    pub model: Option<(Row, Bat)>,
+    pub model: Option<(DesignRow, Bat)>,
 }
 
 /// The base of a row's own document: a document, or the finished value if no row changes it.
@@ -109,7 +109,7 @@ impl Rows {
         &self,
         varying: &Varying,
         without_asking: bool,
-    ) -> (Option<(Row, Bat)>, Option<Error>) {
+    ) -> (Option<(DesignRow, Bat)>, Option<Error>) {
         let (mut model, mut wrong) = (None, None);
         for row in self.study.design.examples(TRIED) {
             let bat = self.bat(varying, &row);
@@ -127,7 +127,7 @@ impl Rows {
     }
 
     /// An error if none of the outputs is possible for a bat in a row.
-    fn can_be_asked(&self, row: &Row, bat: &Bat) -> Result<()> {
+    fn can_be_asked(&self, row: &DesignRow, bat: &Bat) -> Result<()> {
         let answers = &self.study.asked.answers;
         match answers.iter().any(|answer| answer.of_a_hit()) {
             true => self.trial(row, bat).map(|_| ())?,
@@ -149,7 +149,7 @@ impl Rows {
 
     /// Whether walls of hollow barrels are solved in at least one of the rows that are tried of each bat.
     pub fn solves_walls(&self) -> bool {
-        let solved = |bat: &Varying, row: &Row| {
+        let solved = |bat: &Varying, row: &DesignRow| {
             let setup = self.setup(row).ok()?;
             Some(setup.may_solve_wall(&self.bat(bat, row).ok()?))
         };
@@ -176,7 +176,7 @@ impl Rows {
     }
 
     fn answers_of_one_bat(&self, rows: Range<u64>) -> Vec<Result<BatAnswers>> {
-        let of: Vec<(&Varying, Row)> = rows.map(|k| self.row(k)).collect();
+        let of: Vec<(&Varying, DesignRow)> = rows.map(|k| self.row(k)).collect();
         let Some((bat, _)) = of.first() else { return vec![] };
         self.answers_of_rows(bat, &of.iter().map(|(_, row)| row).collect::<Vec<_>>())
     }
@@ -184,7 +184,7 @@ impl Rows {
     pub(super) fn answers_of_rows(
         &self,
         varying: &Varying,
-        rows: &[&Row],
+        rows: &[&DesignRow],
     ) -> Vec<Result<BatAnswers>> {
         let asked = &self.study.asked;
         let trial = |k: usize, bat: &Bat| self.trial(rows[k], bat);
@@ -192,15 +192,17 @@ impl Rows {
         let Some((_, model)) = &varying.model else {
             // Each bat is its own model.
             let alone = |(k, bat): (usize, Result<Bat>)| match bat {
-                Ok(bat) => Asked::of_each(&bat.clone(), vec![(asked, Ok(bat))], |_, b| trial(k, b)),
+                Ok(bat) => {
+                    Questions::of_each(&bat.clone(), vec![(asked, Ok(bat))], |_, b| trial(k, b))
+                }
                 Err(error) => vec![Err(error)],
             };
             return bats.enumerate().flat_map(alone).collect();
         };
-        Asked::of_each(model, bats.map(|bat| (asked, bat)).collect(), trial)
+        Questions::of_each(model, bats.map(|bat| (asked, bat)).collect(), trial)
     }
 
-    fn row(&self, k: u64) -> (&Varying, Row) {
+    fn row(&self, k: u64) -> (&Varying, DesignRow) {
         let each = self.study.design.rows();
         (&self.bats[(k / each) as usize], self.study.design.row(k % each))
     }
@@ -299,7 +301,7 @@ impl Rows {
     }
 
     /// A document with its inputs of a row.
-    fn document(&self, subject: VariedFile, base: &Value, row: &Row) -> Result<Value> {
+    fn document(&self, subject: VariedFile, base: &Value, row: &DesignRow) -> Result<Value> {
         let mut document = base.clone();
         for varied in self.study.varied.iter().filter(|varied| varied.subject == subject) {
             varied.put(&mut document, row)?;
@@ -307,14 +309,14 @@ impl Rows {
         Ok(document)
     }
 
-    pub(super) fn bat(&self, bat: &Varying, row: &Row) -> Result<Bat> {
+    pub(super) fn bat(&self, bat: &Varying, row: &DesignRow) -> Result<Bat> {
         let document = bat.document.as_ref();
         let document = document.map_err(|why| Error::value("bat", why, "a bat file"))?;
         let text = self.document(VariedFile::Bat, document, row)?.to_string();
         Bat::from_text(&bat.name, &text, Path::new(""))
     }
 
-    fn ball(&self, row: &Row) -> Result<Ball> {
+    fn ball(&self, row: &DesignRow) -> Result<Ball> {
         match &self.ball {
             Base::Same(ball) => Ok(ball.clone()),
             Base::Varied(base) => {
@@ -323,7 +325,7 @@ impl Rows {
         }
     }
 
-    pub(super) fn setup(&self, row: &Row) -> Result<Setup> {
+    pub(super) fn setup(&self, row: &DesignRow) -> Result<Setup> {
         match &self.setup {
             Base::Same(setup) => Ok(setup.clone()),
             Base::Varied(base) => {
@@ -334,10 +336,10 @@ impl Rows {
         }
     }
 
-    fn trial(&self, row: &Row, bat: &Bat) -> Result<Trial> {
+    fn trial(&self, row: &DesignRow, bat: &Bat) -> Result<BatTrial> {
         let setup = self.setup(row)?;
         let (model, tolerance) = (setup.model()?, Some(self.study.asked.tolerance));
-        Ok(Trial { scene: setup.scene(bat, tolerance)?.0, model })
+        Ok(BatTrial { scene: setup.scene(bat, tolerance)?.0, model })
     }
 }
 

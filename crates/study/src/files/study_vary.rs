@@ -11,7 +11,7 @@ use crate::engine::{
 };
 use crate::files::form::later;
 use crate::files::written::{Written, written};
-use crate::many::design::{Axis, Row, Wanted};
+use crate::many::design::{Axis, DesignRow, DesignTerms};
 use crate::many::distribution::Distribution;
 use crate::named::named;
 
@@ -54,7 +54,7 @@ pub struct Varied {
     /// Whose it is.
     pub subject: VariedFile,
     /// Its path in its document.
-    inside: Vec<Step>,
+    inside: Vec<PathStep>,
     way: Variation,
     /// Its position in the study.
     place: Box<FilePosition>,
@@ -62,7 +62,7 @@ pub struct Varied {
 
 /// A step of a path into a document.
 #[derive(Debug, Clone, PartialEq, Eq)]
-enum Step {
+enum PathStep {
     Member(String),
     Item(usize),
 }
@@ -75,14 +75,14 @@ struct Variation {
     /// The numbers of a list of numbers, in the unit.
     numbers: Vec<f64>,
     /// The values of another list.
-    listed: Vec<Listed>,
+    listed: Vec<ListedValue>,
     /// The unit of its numbers, which may be empty.
     unit: String,
 }
 
 /// A value of a list.
 #[derive(Debug, Clone)]
-struct Listed {
+struct ListedValue {
     /// As the study writes it.
     said: Value,
     /// The value for a document, without the name of a file.
@@ -91,7 +91,7 @@ struct Listed {
 
 impl Varied {
     /// Its number in a row, or the value of its list.
-    fn of_row(&self, row: &Row) -> std::result::Result<f64, &Listed> {
+    fn of_row(&self, row: &DesignRow) -> std::result::Result<f64, &ListedValue> {
         match self.way.axis {
             Axis::Drawn(k) => Ok(row.values[k]),
             Axis::List(k) => {
@@ -102,7 +102,7 @@ impl Varied {
     }
 
     /// Its value in a row, as a document has it.
-    pub fn value(&self, row: &Row) -> Value {
+    pub fn value(&self, row: &DesignRow) -> Value {
         match (self.of_row(row), self.unit()) {
             (Ok(number), "") => number.into(),
             (Ok(number), unit) => format!("{} {unit}", shortest(number)).into(),
@@ -111,7 +111,7 @@ impl Varied {
     }
 
     /// Its value in a row as a cell of a table: a number in its unit, or the item of the list.
-    pub fn cell(&self, row: &Row) -> String {
+    pub fn cell(&self, row: &DesignRow) -> String {
         match self.of_row(row).map_err(|listed| &listed.said) {
             Ok(number) => shortest(number),
             Err(Value::String(text)) => marks::cell(text),
@@ -141,7 +141,7 @@ impl Varied {
     /// Those of `of`, in the study.
     pub fn replace_tables(&mut self, mut of: impl FnMut(&Value) -> Result<Value>) -> Result<()> {
         let is_profile = self.subject == VariedFile::Bat && self.inside == [member("profile")];
-        for Listed { meant, .. } in self.way.listed.iter_mut().filter(|_| is_profile) {
+        for ListedValue { meant, .. } in self.way.listed.iter_mut().filter(|_| is_profile) {
             if meant.get("csv").is_some() {
                 let placed = |complaint| wrong(&self.path, &self.place, complaint);
                 *meant = of(meant).map_err(|error| error.placed(placed))?;
@@ -156,7 +156,7 @@ impl Varied {
     /// # Errors
     ///
     /// How far the path leads, if it leads nowhere.
-    pub fn put(&self, root: &mut Value, row: &Row) -> Result<()> {
+    pub fn put(&self, root: &mut Value, row: &DesignRow) -> Result<()> {
         let (mut here, mut passed) = (root, String::new());
         for step in &self.inside {
             let lost = |what: String| {
@@ -164,14 +164,14 @@ impl Varied {
                 Error::value(self.path.clone(), found, "a path that is in the document")
             };
             match step {
-                Step::Item(k) => {
+                PathStep::Item(k) => {
                     let list = here.as_array_mut().ok_or_else(|| lost("no list".to_owned()))?;
                     let many = list.len();
                     let none = || lost(format!("{many} items, none of number {k},"));
                     here = list.get_mut(*k).ok_or_else(none)?;
                     passed += &format!("[{k}]");
                 }
-                Step::Member(name) => {
+                PathStep::Member(name) => {
                     if here.is_string() {
                         *here = json!({ "name": here.clone() });
                     } else if here.is_null() {
@@ -205,12 +205,12 @@ fn wrong(path: &str, place: &FilePosition, complaint: Complaint) -> Error {
     Error::Input { place: Box::new(place.clone()), complaint }
 }
 
-fn member(name: &str) -> Step {
-    Step::Member(name.to_owned())
+fn member(name: &str) -> PathStep {
+    PathStep::Member(name.to_owned())
 }
 
 /// The steps of a path such as `attachments[0].mass`, which has only one notation.
-fn steps(path: &str) -> Option<Vec<Step>> {
+fn steps(path: &str) -> Option<Vec<PathStep>> {
     let mut steps = vec![];
     for part in path.split('.') {
         let (name, items) = part.split_at(part.find('[').unwrap_or(part.len()));
@@ -221,19 +221,19 @@ fn steps(path: &str) -> Option<Vec<Step>> {
         let items = items.strip_prefix('[').map(|items| items.strip_suffix(']'));
         for k in items.map_or(Some(vec![]), |items| Some(items?.split("][").collect()))? {
             let number: usize = k.parse().ok().filter(|number: &usize| number.to_string() == k)?;
-            steps.push(Step::Item(number));
+            steps.push(PathStep::Item(number));
         }
     }
     Some(steps)
 }
 
 /// Whether one of two paths contains the other, or both are equal.
-fn one_within(a: &[Step], b: &[Step]) -> bool {
+fn one_within(a: &[PathStep], b: &[PathStep]) -> bool {
     a.starts_with(b) || b.starts_with(a)
 }
 
 /// The inputs that vary; their lists and distributions are added to the design.
-pub(crate) fn varied(node: &Node, wanted: &mut Wanted) -> Result<Vec<Varied>> {
+pub(crate) fn varied(node: &Node, wanted: &mut DesignTerms) -> Result<Vec<Varied>> {
     let object = node.members()?;
     let paths = object.keys();
     if paths.is_empty() {
@@ -245,7 +245,7 @@ pub(crate) fn varied(node: &Node, wanted: &mut Wanted) -> Result<Vec<Varied>> {
     if paths.len() > MOST {
         return Err(node.error(format!("{} paths", paths.len()), format!("{MOST} at most")));
     }
-    let mut all: Vec<(VariedFile, Vec<Step>, &str)> = vec![];
+    let mut all: Vec<(VariedFile, Vec<PathStep>, &str)> = vec![];
     mistakes::all(paths.iter().map(|(path, node)| {
         let key = node.key();
         let (subject, inside) = led(path, &key)?;
@@ -265,7 +265,7 @@ pub(crate) fn varied(node: &Node, wanted: &mut Wanted) -> Result<Vec<Varied>> {
 }
 
 /// Whose member a path names, and where it is there.
-fn led(path: &str, key: &Node) -> Result<(VariedFile, Vec<Step>)> {
+fn led(path: &str, key: &Node) -> Result<(VariedFile, Vec<PathStep>)> {
     let found = format!("\"{path}\"");
     let subject = path.split_once('.').and_then(|(first, inside)| {
         let subject = VariedFile::ALL.into_iter().find(|subject| subject.name() == first)?;
@@ -289,7 +289,7 @@ fn led(path: &str, key: &Node) -> Result<(VariedFile, Vec<Step>)> {
 }
 
 /// The variation of a member, added to the design.
-fn way(node: &Node, wanted: &mut Wanted) -> Result<Variation> {
+fn way(node: &Node, wanted: &mut DesignTerms) -> Result<Variation> {
     let mut mistakes = Mistakes::default();
     let object = node.object(VariationForm::KEYS, &mut mistakes)?;
     mistakes.end(())?;
@@ -298,7 +298,7 @@ fn way(node: &Node, wanted: &mut Wanted) -> Result<Variation> {
         return Err(node.error("nothing that says how it varies", expected));
     };
     let items = node.items()?;
-    let mut list = |numbers: Vec<f64>, listed: Vec<Listed>, unit: String| {
+    let mut list = |numbers: Vec<f64>, listed: Vec<ListedValue>, unit: String| {
         wanted.lists.push(numbers.len().max(listed.len()) as u64);
         Variation { axis: Axis::List(wanted.lists.len() - 1), numbers, listed, unit }
     };
@@ -309,7 +309,8 @@ fn way(node: &Node, wanted: &mut Wanted) -> Result<Variation> {
         if let Some((numbers, unit)) = of_one_unit(&items) {
             return Ok(list(numbers, vec![], unit));
         }
-        let listed = items.iter().map(Node::value).map(|said| Listed { meant: said.clone(), said });
+        let listed =
+            items.iter().map(Node::value).map(|said| ListedValue { meant: said.clone(), said });
         return Ok(list(vec![], listed.collect(), String::new()));
     }
     let forms: [(&str, &str, usize); 5] = [
@@ -325,16 +326,7 @@ fn way(node: &Node, wanted: &mut Wanted) -> Result<Variation> {
     }
     // The last number of these two has no unit.
     let with_unit = if matches!(way, "grid" | "lognormal") { count - 1 } else { count };
-    let numbers = mistakes::all(items[..with_unit].iter().map(number))?;
-    let unit = numbers[0].1.clone();
-    if let Some(k) = numbers.iter().position(|(_, other)| *other != unit) {
-        let expected = match &*unit {
-            "" => "a bare number, as the first".to_owned(),
-            unit => format!("the unit \"{unit}\", as the first has"),
-        };
-        return Err(items[k].error(items[k].shown(), expected));
-    }
-    let numbers: Vec<f64> = numbers.into_iter().map(|(number, _)| number).collect();
+    let (numbers, unit) = alike(&items[..with_unit])?;
     if way == "grid" {
         let count = items[2].whole()?;
         if !(2..=1_000_000).contains(&count) {
@@ -346,6 +338,13 @@ fn way(node: &Node, wanted: &mut Wanted) -> Result<Variation> {
         };
         return Ok(list((0..count).map(at).collect(), vec![], unit));
     }
+    wanted.drawn.push(distribution(way, &numbers, &items, node)?);
+    let axis = Axis::Drawn(wanted.drawn.len() - 1);
+    Ok(Variation { axis, numbers: vec![], listed: vec![], unit })
+}
+
+/// The distribution of that name with these numbers; that of a logarithm is the second item.
+fn distribution(way: &str, numbers: &[f64], items: &[Node], node: &Node) -> Result<Distribution> {
     let distribution = match way {
         "uniform" => Distribution::Uniform { from: numbers[0], to: numbers[1] },
         "normal" => Distribution::Normal { mean: numbers[0], deviation: numbers[1] },
@@ -360,21 +359,28 @@ fn way(node: &Node, wanted: &mut Wanted) -> Result<Variation> {
             node.complain(Complaint { field: String::new(), found, ..complaint })
         })
     })?;
-    wanted.drawn.push(distribution);
-    let axis = Axis::Drawn(wanted.drawn.len() - 1);
-    Ok(Variation { axis, numbers: vec![], listed: vec![], unit })
+    Ok(distribution)
+}
+
+/// The numbers of values that must all have the unit of the first, and the unit.
+fn alike(items: &[Node]) -> Result<(Vec<f64>, String)> {
+    let (numbers, units): (Vec<f64>, Vec<String>) =
+        mistakes::all(items.iter().map(number))?.into_iter().unzip();
+    if let Some(k) = units.iter().position(|other| *other != units[0]) {
+        let expected = match &*units[0] {
+            "" => "a bare number, as the first".to_owned(),
+            unit => format!("the unit \"{unit}\", as the first has"),
+        };
+        return Err(items[k].error(items[k].shown(), expected));
+    }
+    Ok((numbers, units[0].clone()))
 }
 
 /// The numbers of values that all have the same unit, and the unit.
 fn of_one_unit(items: &[Node]) -> Option<(Vec<f64>, String)> {
-    let all: Option<Vec<(f64, String)>> = items.iter().map(|item| number(item).ok()).collect();
-    let (numbers, mut units): (Vec<f64>, Vec<String>) = all?.into_iter().unzip();
-    units.dedup();
-    let [unit] = &units[..] else { return None };
-    Quantity::ALL
-        .iter()
-        .any(|quantity| units::factor(unit, *quantity).is_ok())
-        .then(|| (numbers, unit.clone()))
+    let (numbers, unit) = alike(items).ok()?;
+    let known = Quantity::ALL.iter().any(|quantity| units::factor(&unit, *quantity).is_ok());
+    known.then_some((numbers, unit))
 }
 
 /// A number and its unit, which may be empty.

@@ -5,7 +5,7 @@ use std::path::Path;
 use crate::engine::{Bat, threads};
 use crate::files::study_rows::{Rows, Varying};
 use crate::files::study_vary::VariedFile;
-use crate::many::design::{Axis, Row};
+use crate::many::design::{Axis, DesignRow};
 use crate::many::rows::BatAnswers;
 
 impl Rows {
@@ -53,14 +53,15 @@ impl Rows {
     fn first_strange(
         &self,
         subject: VariedFile,
-        strange: impl Fn(&Row) -> Option<Vec<String>>,
+        strange: impl Fn(&DesignRow) -> Option<Vec<String>>,
     ) -> Option<String> {
         /// Most values of a list that are tried, and most characters of one that are quoted.
         const VALUES: u64 = 64;
         const TOLD: usize = 40;
         let design = &self.study.design;
         let middle = design.middle();
-        let told = |row: &Row| strange(row).filter(|all| !all.is_empty()).map(|all| all.join("; "));
+        let told =
+            |row: &DesignRow| strange(row).filter(|all| !all.is_empty()).map(|all| all.join("; "));
         let lists =
             self.study.varied.iter().filter(|varied| {
                 varied.subject == subject && matches!(varied.axis(), Axis::List(_))
@@ -87,13 +88,13 @@ impl Rows {
         let bats: Vec<_> = bats.take(SOME as usize).collect();
         let varied = &self.study.varied;
         // The effect of one input may depend on another: the rows beside one are tried, and others of the design.
-        let beside = |row: &Row, k: usize| {
+        let beside = |row: &DesignRow, k: usize| {
             let others = self.study.design.beside(row, varied[k].axis(), VALUES);
             std::iter::once(row.clone()).chain(others).collect::<Vec<_>>()
         };
         let idle = threads::map(varied.len(), |k| {
             // An unknown result counts as a change.
-            let changes = |bat: &Varying, row: &Row| {
+            let changes = |bat: &Varying, row: &DesignRow| {
                 let of = beside(row, k);
                 let found = self.answers_of_rows(bat, &of.iter().collect::<Vec<_>>());
                 let known: Option<Vec<&BatAnswers>> =

@@ -30,7 +30,7 @@ pub(super) struct Fitted<'a> {
 
 /// A part of a response, at a complex square of the frequency.
 #[derive(Clone, Copy)]
-pub(super) enum Part {
+pub(super) enum Portion {
     /// The residue at a pole.
     Residue(usize),
     /// What rigid motions answer.
@@ -68,13 +68,13 @@ impl<'a> Fitted<'a> {
     }
 
     /// The weights of a response's coefficients in a part of it.
-    fn weights(&self, of: &Responses, part: Part) -> Vec<c64> {
+    fn weights(&self, of: &Responses, part: Portion) -> Vec<c64> {
         let poles = self.poles();
         match part {
-            Part::Residue(p) => Responses::residue(p, poles.len()),
-            Part::Rigid => of.at(poles, c64::ZERO),
-            Part::All(z) => of.at(poles, z),
-            Part::Beyond(z) => {
+            Portion::Residue(p) => Responses::residue(p, poles.len()),
+            Portion::Rigid => of.at(poles, c64::ZERO),
+            Portion::All(z) => of.at(poles, z),
+            Portion::Beyond(z) => {
                 let mut weights = of.at(poles, z);
                 weights[0] = c64::ZERO;
                 self.kept.iter().for_each(|p| weights[POWERS + p] = c64::ZERO);
@@ -84,14 +84,14 @@ impl<'a> Fitted<'a> {
     }
 
     /// A part of response `k` (1/kg).
-    pub fn value(&self, k: usize, part: Part) -> c64 {
+    pub fn value(&self, k: usize, part: Portion) -> c64 {
         let (g, j) = self.place(k);
         let of = &self.all[g];
         self.projections[g].value(of, j, &self.weights(of, part))
     }
 
     /// Its standard deviation (1/kg), real and imaginary part together, at known poles.
-    pub fn deviation(&self, k: usize, part: Part) -> f64 {
+    pub fn deviation(&self, k: usize, part: Portion) -> f64 {
         let (g, j) = self.place(k);
         let of = &self.all[g];
         self.projections[g].deviation(of, j, &self.weights(of, part))

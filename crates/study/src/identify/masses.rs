@@ -23,7 +23,7 @@ use sweetspot_tap::resonances::{at, square};
 
 use crate::calibrate::calibration::NINETY_FIVE;
 use crate::engine::{Error, Result};
-use crate::identify::fitted::{Fitted, Part};
+use crate::identify::fitted::{Fitted, Portion};
 use crate::identify::set::ResponseSet;
 
 /// Accelerometers that were on the bat.
@@ -115,10 +115,10 @@ impl Masses {
         };
         let slope = open(z + step).zip(open(z - step)).map(|(a, b)| (a - b) * (0.5 / step));
         let (slope, (_, shape)) = slope.zip(self.freed(of, p, z)).ok_or_else(too_much)?;
-        let scale =
-            shape[self.drive] / (of.value(self.column[self.drive].0, Part::Residue(p)) * z * slope);
+        let scale = shape[self.drive]
+            / (of.value(self.column[self.drive].0, Portion::Residue(p)) * z * slope);
         let mut residues: Vec<c64> =
-            (0..of.set.responses.len()).map(|k| of.value(k, Part::Residue(p))).collect();
+            (0..of.set.responses.len()).map(|k| of.value(k, Portion::Residue(p))).collect();
         for ((k, _), own) in self.column.iter().zip(&shape) {
             residues[*k] = own * scale;
         }
@@ -132,7 +132,7 @@ impl Masses {
 
     /// `Σ φ x/m_n` over the accelerometers, and the deflections x of the column, of a mode φ that moves all others.
     fn freed(&self, of: &Fitted, p: usize, z: c64) -> Option<(c64, Vec<c64>)> {
-        let (motions, own) = (self.others(of, p, z), self.parts(of, Part::Residue(p)));
+        let (motions, own) = (self.others(of, p, z), self.parts(of, Portion::Residue(p)));
         let size = self.watched.len();
         let between = Mat::from_fn(size, size, |i, j| {
             let [i, j] = [i, j].map(|w| self.watched[w]);
@@ -154,21 +154,21 @@ impl Masses {
     }
 
     /// A part of every response of the column.
-    fn parts(&self, of: &Fitted, part: Part) -> Vec<c64> {
+    fn parts(&self, of: &Fitted, part: Portion) -> Vec<c64> {
         self.column.iter().map(|(k, _)| of.value(*k, part)).collect()
     }
 
     /// The motions beside pole `p` at a complex square of the frequency.
     fn others(&self, of: &Fitted, p: usize, z: c64) -> Motions {
-        let pole = |s: usize| (Part::Residue(s), -z / (square(of.poles()[s]) - z));
+        let pole = |s: usize| (Portion::Residue(s), -z / (square(of.poles()[s]) - z));
         let others = of.kept.iter().copied().filter(|s| *s != p).map(pole);
-        let others = others.chain([(Part::Rigid, c64::ONE), (Part::Beyond(z), c64::ONE)]);
-        let motion = |(part, gain): (Part, c64)| {
+        let others = others.chain([(Portion::Rigid, c64::ONE), (Portion::Beyond(z), c64::ONE)]);
+        let motion = |(part, gain): (Portion, c64)| {
             let shape = self.parts(of, part);
             // A mode that noise hides at the drive point says little of others.
             let own = shape[self.drive];
             let noise = match part {
-                Part::Residue(_) if self.watched.len() > 1 => {
+                Portion::Residue(_) if self.watched.len() > 1 => {
                     of.deviation(self.column[self.drive].0, part)
                 }
                 _ => 0.0,
@@ -179,7 +179,7 @@ impl Masses {
         let mut motions: Motions = others.map(motion).collect();
         // Rigid motions answer `(1 + d²/r²)/M` at k, d from the balance point: `1/I_k` is `r²/(r² + d²)²` of that.
         let (drive, here) = self.column[self.drive];
-        let rigid = of.value(drive, Part::Rigid).re;
+        let rigid = of.value(drive, Portion::Rigid).re;
         let [turned, arm] = [GYRATION * self.length, here - BALANCE * self.length].map(|r| r * r);
         let share = rigid * turned / (turned + arm).powi(2).max(f64::MIN_POSITIVE);
         let arms = self.column.iter().map(|(_, x)| c64::from(x - here));
@@ -234,11 +234,11 @@ impl Masses {
         let start = square(of.poles()[p]);
         if self.watched.len() == 1 {
             let step = 1e-4 * (start - z).norm() + 1e-9 * z.re;
-            let near = |by: f64| of.value(drive, Part::All(z + by));
+            let near = |by: f64| of.value(drive, Portion::All(z + by));
             let slope = (near(step) - near(-step)) * (0.5 / step);
-            return of.deviation(drive, Part::All(z)) / (slope * z).norm();
+            return of.deviation(drive, Portion::All(z)) / (slope * z).norm();
         }
-        let part = Part::Residue(p);
+        let part = Portion::Residue(p);
         let own = of.value(drive, part).norm_sqr().max(f64::MIN_POSITIVE);
         let each = || self.watched.iter().map(|w| self.column[*w].0);
         let squares: f64 = each().map(|k| of.value(k, part).norm_sqr()).sum();

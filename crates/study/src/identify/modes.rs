@@ -12,7 +12,7 @@ use sweetspot_tap::resonances::{Damping, LOSSES, Responses, at, square};
 
 use crate::calibrate::calibration::NINETY_FIVE;
 use crate::engine::{Error, ResponseKind, Result};
-use crate::identify::fitted::{Fitted, Group, Part};
+use crate::identify::fitted::{Fitted, Group, Portion};
 use crate::identify::masses::{Masses, Unloaded};
 use crate::identify::set::{Place, ResponseSet};
 use crate::measured::mac::collinearity;
@@ -178,7 +178,7 @@ impl Fitted<'_> {
         let pole = self.poles()[p];
         let unloaded = masses.map(|masses| masses.without(self, p)).transpose()?;
         let loaded = || {
-            let residue = |k: usize| self.value(k, Part::Residue(p));
+            let residue = |k: usize| self.value(k, Portion::Residue(p));
             let residues = (0..self.set.responses.len()).map(residue).collect();
             Unloaded { pole, residues, deviations: [0.0; 2] }
         };
@@ -207,9 +207,8 @@ impl Fitted<'_> {
     fn opposite(&self) -> Option<f64> {
         let turned = |reference: &usize| {
             let Some(drive) = self.set.drive(*reference) else { return false };
-            let negative =
-                self.kept.iter().filter(|p| self.value(drive, Part::Residue(**p)).re < 0.0).count();
-            2 * negative > self.kept.len()
+            let negative = |p: &&usize| self.value(drive, Portion::Residue(**p)).re < 0.0;
+            2 * self.kept.iter().filter(negative).count() > self.kept.len()
         };
         let first = (0..self.set.references.len()).find(turned)?;
         Some(self.set.references[first].x)

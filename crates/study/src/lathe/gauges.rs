@@ -73,12 +73,12 @@ pub struct Gauge {
     /// bat.
     pub off: [f64; 2],
     /// How its places were found; `None` if they were given.
-    sought: Option<Sought>,
+    sought: Option<Located>,
 }
 
 /// The value that a search found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Wanted {
+enum Feature {
     /// The best value.
     Value,
     /// Its place.
@@ -89,8 +89,8 @@ enum Wanted {
 
 /// The data of a search for the places of a gauge.
 #[derive(Debug, Clone, Copy)]
-struct Sought {
-    wanted: Wanted,
+struct Located {
+    wanted: Feature,
     probe: Probe,
     /// Place of the best value (m).
     best: f64,
@@ -109,12 +109,12 @@ impl Gauge {
     }
 
     /// The best value of a probe there, its place, or an end of the zone.
-    fn of(sought: Sought, [_, slope, bend]: [f64; 3], sign: f64) -> Self {
-        let Sought { wanted, probe, best, x, apart, .. } = sought;
+    fn of(sought: Located, [_, slope, bend]: [f64; 3], sign: f64) -> Self {
+        let Located { wanted, probe, best, x, apart, .. } = sought;
         let (terms, off) = match wanted {
-            Wanted::Value => (vec![(best, probe, 1.0)], [1.0, 0.0]),
-            Wanted::Place => (by_slope(best, probe, apart, -1.0 / bend), [0.0, 1.0 / bend.abs()]),
-            Wanted::Edge => {
+            Feature::Value => (vec![(best, probe, 1.0)], [1.0, 0.0]),
+            Feature::Place => (by_slope(best, probe, apart, -1.0 / bend), [0.0, 1.0 / bend.abs()]),
+            Feature::Edge => {
                 let greatest = (1.0 - NEARLY * sign) / slope;
                 let terms = vec![(x, probe, -1.0 / slope), (best, probe, greatest)];
                 // The speed there is uncertain, and so is the greatest one.
@@ -130,14 +130,15 @@ impl Gauge {
         let Some(sought) = self.sought else { return self.clone() };
         let by = Stencil { hitter, probe: sought.probe, apart: share * sought.apart };
         let found = || {
-            let (best, top) = by.polished(sought.best, sought.reach)?;
-            let sought = Sought { best, x: best, apart: by.apart, ..sought };
-            if sought.wanted != Wanted::Edge {
+            let (best, top) = by.polished(sought.best, sought.reach, by.exactly())?;
+            let sought = Located { best, x: best, apart: by.apart, ..sought };
+            if sought.wanted != Feature::Edge {
                 return Some(Self::of(sought, top, 1.0));
             }
             let sign = top[0].signum();
-            let (x, edge) = by.edge(self.sought?.x, top[0] * (1.0 - NEARLY * sign))?;
-            Some(Self::of(Sought { x, ..sought }, edge, sign))
+            let (x, edge) =
+                by.edge(self.sought?.x, top[0] * (1.0 - NEARLY * sign), by.closely())?;
+            Some(Self::of(Located { x, ..sought }, edge, sign))
         };
         found().unwrap_or_else(|| self.clone())
     }
@@ -173,7 +174,7 @@ impl GaugeHits {
         let mut places: Vec<f64> = gauges.flat_map(|g| g.terms.iter().map(|term| term.0)).collect();
         places.sort_by(f64::total_cmp);
         places.dedup();
-        let hits = places.iter().map(|x| hitter.glance(*x)).collect();
+        let hits = hitter.glances(&places);
         Self { places, hits }
     }
 
@@ -242,6 +243,8 @@ const CORNER: f64 = 0.1;
 const NEARLY: f64 = 0.01;
 /// Share of the outer half to which a search locates the best place before slopes do.
 const LOCATED: f64 = 2e-5;
+/// The last of Newton's steps (m) to the best place of a nearly equal bat, which leaves an error of nanometres.
+const FOLLOWED: f64 = 5e-6;
 
 /// The greatest value and its surroundings.
 #[derive(Clone, Copy)]
@@ -360,10 +363,10 @@ impl<'a> OuterHalf<'a> {
             self.rivals.push(Rivals::of(answer, why, [peak, other]));
             return (None, Some(value));
         }
-        let wanted = if place { Wanted::Place } else { Wanted::Value };
+        let wanted = if place { Feature::Place } else { Feature::Value };
         let reach = self.reach();
         let gauge = smooth.map(|(by, apart)| {
-            let sought = Sought { wanted, probe, best: peak.x, x: peak.x, apart, reach };
+            let sought = Located { wanted, probe, best: peak.x, x: peak.x, apart, reach };
             Gauge::of(sought, by, 1.0)
         });
         (gauge.or_else(|| (!place).then(|| Gauge::at(peak.x, probe))), Some(value))
@@ -402,7 +405,8 @@ impl<'a> OuterHalf<'a> {
         let (known, wide) = self.beside.as_ref()?;
         let Greatest { peak, smooth, .. } = known.of(probe)?.as_ref()?;
         let (sign, (_, apart)) = (probe.sign(), (*smooth)?);
-        let (x, by) = Stencil { apart, ..self.stencil(probe) }.polished(peak.x, self.reach())?;
+        let stencil = Stencil { apart, ..self.stencil(probe) };
+        let (x, by) = stencil.polished(peak.x, self.reach(), FOLLOWED)?;
         let of = |glance: &Glance| Some(sign * probe.of(self.hitter, glance)?);
         let other = wide.as_ref().is_some_and(|wide| wide.may_exceed(sign * by[0], x, of));
         let best = sign * by[2] < 0.0 && !other;
@@ -423,7 +427,7 @@ impl<'a> OuterHalf<'a> {
         for _ in 0..=HALVED {
             let half = Stencil { apart: 0.5 * stencil.apart, ..stencil };
             let here = || {
-                let (x, by) = stencil.polished(found.x, self.reach())?;
+                let (x, by) = stencil.polished(found.x, self.reach(), stencil.exactly())?;
                 let [value, _, bend] = by;
                 // A zero slope also belongs to a valley, and to a mean over a narrow top.
                 let rough = 1e-9 * found.value.abs();
@@ -461,7 +465,8 @@ impl<'a> OuterHalf<'a> {
         let floor = peak.value * (1.0 - NEARLY * sign);
         let apart = smooth.map_or(APART * self.ends[1], |(_, apart)| apart);
         let stencil = Stencil { apart, ..self.stencil(Probe::Speed) };
-        let followed = |(known, _): &(&BestPlaces, _)| stencil.edge(known.zone[end], floor);
+        let followed =
+            |(known, _): &(&BestPlaces, _)| stencil.edge(known.zone[end], floor, FOLLOWED);
         if let Some((x, _)) = self.beside.as_ref().and_then(followed) {
             return (None, Some(x));
         }
@@ -469,7 +474,7 @@ impl<'a> OuterHalf<'a> {
         if !self.inside(x, stencil.apart) {
             return (None, Some(x));
         }
-        let (Some((x, by)), false) = (stencil.edge(x, floor), corner) else {
+        let (Some((x, by)), false) = (stencil.edge(x, floor, stencil.closely()), corner) else {
             let edge = Peak { x, value: floor };
             let answer = Answer::Zone(end == 1);
             self.rivals.push(Rivals::of(answer, WhyNotSmooth::Corner, [edge; 2]));
@@ -477,7 +482,7 @@ impl<'a> OuterHalf<'a> {
         };
         let reach = self.reach();
         let sought =
-            Sought { wanted: Wanted::Edge, probe: Probe::Speed, best: peak.x, x, apart, reach };
+            Located { wanted: Feature::Edge, probe: Probe::Speed, best: peak.x, x, apart, reach };
         (Some(Gauge::of(sought, by, sign)), Some(x))
     }
 

@@ -6,7 +6,7 @@ use crate::lathe::gauges::{BestPlaces, Gauge, Rivals};
 use crate::lathe::quotient::Ways;
 
 /// How the bat is hit, once modes and steps are planned.
-pub(super) struct Hit {
+pub(super) struct PlannedHit {
     /// Swing, ball and pitch.
     pub scene: Scene,
     /// How a hit is computed.
@@ -17,7 +17,7 @@ pub(super) struct Hit {
 
 /// The results of a pass along the bat.
 #[derive(Default)]
-pub(super) struct Look {
+pub(super) struct LathePass {
     /// The answers.
     pub values: Vec<Option<Figure>>,
     /// The gauges of answers about a hit.
@@ -38,10 +38,10 @@ pub(super) enum By<'a> {
     /// Also by those of the other ways.
     EveryWay(&'a Ways),
     /// By the finer wall alone.
-    FinerWall(&'a (Hit, Vec<Option<Gauge>>)),
+    FinerWall(&'a (PlannedHit, Vec<Option<Gauge>>)),
 }
 
-impl Hit {
+impl PlannedHit {
     /// Bat and ball in that scene.
     pub fn hitter<'a>(
         &self,

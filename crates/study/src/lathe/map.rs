@@ -43,7 +43,7 @@ pub struct LatheMap {
 type ByLaw = Vec<Vec<Option<f64>>>;
 
 /// A band, turned down.
-struct Cut {
+struct BandCut {
     ends: [f64; 2],
     /// Derivatives per metre of diameter taken off; None under a sleeve.
     slopes: Option<Slopes>,
@@ -81,6 +81,15 @@ const MM: f64 = 1e-3;
 const MANY: usize = 200;
 
 impl LatheMap {
+    /// The answers whose changes are told in a few lines.
+    pub const ON_A_SCREEN: [Answer; 5] = [
+        Answer::Mass,
+        Answer::Inertia,
+        Answer::Frequency(1),
+        Answer::ExitSpeed,
+        Answer::ExitSpeedPlace,
+    ];
+
     /// A map with wide bands and few answers, to show where a cut has the largest effect; `None` for a bat with too
     /// many pieces.
     ///
@@ -200,7 +209,7 @@ impl Mapping<'_> {
     }
 
     /// A band with its changes per millimetre.
-    fn band(&self, Cut { ends, slopes, finite }: &Cut) -> TurnedBand {
+    fn band(&self, BandCut { ends, slopes, finite }: &BandCut) -> TurnedBand {
         let own = self.terms.exponents().get(2).copied();
         let by = |of_hits: bool, exponent: f64| {
             let found = slopes.as_ref()?.by_law(exponent);
@@ -239,7 +248,7 @@ impl Mapping<'_> {
             .collect()
     }
 
-    fn turned(&self) -> Result<Vec<Cut>> {
+    fn turned(&self) -> Result<Vec<BandCut>> {
         let bat = self.piece.bat();
         let sleeved: Vec<bool> =
             self.terms.bands.iter().map(|ends| bat.is_sleeved(*ends)).collect();
@@ -258,17 +267,17 @@ impl Mapping<'_> {
         });
         let cut = |(k, finite)| {
             let slopes = if sleeved[k] { None } else { slopes.next() };
-            Cut { ends: self.terms.bands[k], slopes, finite }
+            BandCut { ends: self.terms.bands[k], slopes, finite }
         };
         Ok(finite.into_iter().enumerate().map(cut).collect())
     }
 
     /// Searched answers and modal masses whose finite cut of a band contradicts the derivative. If both differ by more than [`APART`],
     /// half of the cut distinguishes a curve, for which half of the difference remains, from a jump.
-    fn cuts_that_jump(&self, cuts: &[Cut]) -> Result<Vec<Rivals>> {
+    fn cuts_that_jump(&self, cuts: &[BandCut]) -> Result<Vec<Rivals>> {
         let answers = &self.terms.answers;
         let is_mass = |k: &usize| matches!(answers[*k], Answer::ModalMass(_));
-        let of_band = |band: &Cut| -> Result<Vec<Rivals>> {
+        let of_band = |band: &BandCut| -> Result<Vec<Rivals>> {
             let (Some(slopes), Ok(finite)) = (&band.slopes, &band.finite) else {
                 return Ok(vec![]);
             };
@@ -315,9 +324,9 @@ impl Mapping<'_> {
     }
 
     /// How far formula and differences are apart.
-    fn checked(&self, cuts: &[Cut]) -> Option<f64> {
+    fn checked(&self, cuts: &[BandCut]) -> Option<f64> {
         let all = |k: usize| {
-            let of = |band: &Cut| {
+            let of = |band: &BandCut| {
                 let slopes = band.slopes.as_ref()?;
                 Some([slopes.same_swing[k]?.value, slopes.checked[k]?])
             };

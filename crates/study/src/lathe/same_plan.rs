@@ -32,6 +32,8 @@ impl SamePlan {
         let tolerance = request.tolerance.powi(2).clamp(FINEST, AT_BORDERS);
         let request = Request { tolerance, ..*request };
         let solution = solve(bat, &request)?;
+        // The theory that is chosen for the first bat holds for all.
+        let request = Request { theory: solution.theory, ..request };
         let plan = Self { mesh: solution.mesh.clone(), degree: solution.degree, request };
         Ok((plan, solution))
     }

@@ -23,11 +23,11 @@
 use std::f64::consts::PI;
 
 use crate::engine::{Bat, Inertia, Mode, Solution, Theory, Worth, gauss};
-use sweetspot::beam::mesh::Part;
+use sweetspot::beam::mesh::ElementPart;
 
 /// A place along the bat at which integrals are sampled.
 #[derive(Debug, Clone, Copy)]
-struct Sample {
+struct SlopeSample {
     /// From the knob end (m).
     x: f64,
     /// Weight of the sample (m).
@@ -41,7 +41,7 @@ struct Sample {
 /// The bat's sections at the points of a quadrature between all its borders.
 #[derive(Debug, Clone)]
 pub struct SectionSlopes {
-    all: Vec<Sample>,
+    all: Vec<SlopeSample>,
     body: Inertia,
     theory: Theory,
 }
@@ -66,13 +66,14 @@ impl SectionSlopes {
         let rule = gauss(solution.degree + 8);
         let mut all = vec![];
         for (k, element) in solution.mesh.elements.iter().enumerate() {
-            for Part { piece, of_piece: [from, to], of_element: [begin, end] } in element.parts(bat)
+            for ElementPart { piece, of_piece: [from, to], of_element: [begin, end] } in
+                element.parts(bat)
             {
                 let piece = &bat.profile().pieces[piece];
                 let layup = bat.layup(piece);
                 all.extend(rule.iter().map(|&(s, weight)| {
                     let of_element = begin + (end - begin) * s;
-                    Sample {
+                    SlopeSample {
                         x: element.start + element.length * of_element,
                         weight: weight * (end - begin) * element.length,
                         at: (k, 2.0 * of_element - 1.0),
@@ -109,7 +110,7 @@ impl SectionSlopes {
     pub fn body(&self, pivot: f64, change: impl Fn(f64) -> [f64; 2]) -> BodySlope {
         let Inertia { mass, balance_point, .. } = self.body;
         let [mut more, mut moment, mut inertia] = [0.0; 3];
-        for Sample { x, weight, slopes, .. } in &self.all {
+        for SlopeSample { x, weight, slopes, .. } in &self.all {
             for (by, slope) in change(*x).into_iter().zip(slopes) {
                 let here = weight * by * slope.mass;
                 more += here;

@@ -12,7 +12,7 @@ use crate::engine::{
     Trial, sweep, threads,
 };
 use crate::lathe::gauges::{BestPlaces, Gauge, GaugeHits, OuterHalf, Rivals};
-use crate::lathe::look::{By, Hit, Look};
+use crate::lathe::look::{By, LathePass, PlannedHit};
 use crate::lathe::quotient::{ByWay, Differences, Quotient, Usual, WAYS, Ways};
 use crate::lathe::same_plan::SamePlan;
 use crate::lathe::samples::{BodySlope, SectionSlopes};
@@ -48,11 +48,11 @@ pub struct Workpiece {
     answers: Vec<Answer>,
     values: Vec<Option<Figure>>,
     /// The hit for all differences; a wall is solved approximately, in the same way for all bats.
-    hit: Option<Hit>,
+    hit: Option<PlannedHit>,
     /// The results of the pass along it.
-    look: Look,
+    look: LathePass,
     /// The hit with the wall solved to the requested accuracy, and its gauges; `None` if no wall is approximate.
-    finer: Option<(Hit, Vec<Option<Gauge>>)>,
+    finer: Option<(PlannedHit, Vec<Option<Gauge>>)>,
     /// Answers without a derivative, as two places compete.
     pub rivals: Vec<Rivals>,
     /// Whether all answers are as accurate as asked.
@@ -94,7 +94,7 @@ impl Workpiece {
             (modes, met) = (modes.max(sweep.solution.modes.len()), sweep.met());
             off = sweep.worst().map_or(0.0, |(_, outcome)| outcome.error);
             let (model, effort, scene) = (terms.model, sweep.effort, terms.scene.clone());
-            hit = Some(Hit { scene, model, effort });
+            hit = Some(PlannedHit { scene, model, effort });
         }
         let (plan, solution) = SamePlan::new(&bat, &Request { modes, ..*request })?;
         met &= solution.worst() <= request.tolerance;
@@ -108,7 +108,7 @@ impl Workpiece {
             solution,
             samples,
             hit: None,
-            look: Look::default(),
+            look: LathePass::default(),
             finer: None,
             met,
         };
@@ -116,7 +116,7 @@ impl Workpiece {
         (piece.values, piece.rivals) = (piece.look.values.clone(), piece.look.rivals.clone());
         if let Some(fine) = hit.as_ref().filter(|hit| hit.scene.hoop.wall().is_some()) {
             let scene = fine.scene.with_rough_wall(&piece.bat)?;
-            let rough = Hit { scene, ..*fine };
+            let rough = PlannedHit { scene, ..*fine };
             let look = piece.looked(Some(&rough), off)?;
             let fine = hit.replace(rough);
             piece.finer = fine.zip(Some(std::mem::replace(&mut piece.look, look).gauges));
@@ -126,13 +126,13 @@ impl Workpiece {
 
     /// Makes a pass along the bat for the places of answers about a hit; the error of exit speeds is that share of the
     /// closing speed.
-    fn looked(&self, hit: Option<&Hit>, off: f64) -> Result<Look> {
+    fn looked(&self, hit: Option<&PlannedHit>, off: f64) -> Result<LathePass> {
         let (bat, solution) = (&self.bat, &self.solution);
-        let mut look = Look {
+        let mut look = LathePass {
             values: self.answers.iter().map(|answer| figure(*answer, bat, solution)).collect(),
             gauges: vec![None; self.answers.len()],
             by_swing: self.answers.iter().map(|a| (!a.of_a_hit()).then_some(0.0)).collect(),
-            ..Look::default()
+            ..LathePass::default()
         };
         let Some(hit) = hit else { return Ok(look) };
         let hitter = hit.hitter(bat, solution, &hit.scene)?;
@@ -347,7 +347,7 @@ impl Workpiece {
     }
 
     /// The readings of the gauges for a bat that is hit, and those of the other ways.
-    fn every_way(&self, hit: &Hit, bat: &Bat, solution: &Solution, by: By) -> Result<ByWay> {
+    fn every_way(&self, hit: &PlannedHit, bat: &Bat, solution: &Solution, by: By) -> Result<ByWay> {
         let (hit, gauges) = match by {
             By::FinerWall((finer, gauges)) => (finer, gauges),
             _ => (hit, &self.look.gauges),

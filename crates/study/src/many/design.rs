@@ -20,7 +20,7 @@ named! {
     /// How points are spread.
     #[derive(Default, serde::Deserialize)]
     #[non_exhaustive]
-    pub enum Spread {
+    pub enum PointSpread {
         /// By Sobol's sequence, scrambled.
         #[default]
         Sobol = "sobol",
@@ -42,14 +42,14 @@ pub struct Design {
     /// Lower triangle of Cholesky's factor of the correlations.
     factor: Vec<Vec<f64>>,
     points: u64,
-    spread: Spread,
+    spread: PointSpread,
     seed: u64,
     sobol: Sobol,
 }
 
 /// The description of a design.
 #[derive(Debug, Clone, Default)]
-pub struct Wanted {
+pub struct DesignTerms {
     /// How many values each list has.
     pub lists: Vec<u64>,
     /// The distributions that are drawn from.
@@ -59,14 +59,14 @@ pub struct Wanted {
     /// Points for each combination of the lists; one if nothing is random.
     pub points: u64,
     /// How they are spread.
-    pub spread: Spread,
+    pub spread: PointSpread,
     /// Seed of the random numbers.
     pub seed: u64,
 }
 
 /// One row.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Row {
+pub struct DesignRow {
     /// Which value of each list.
     pub picks: Vec<u64>,
     /// The value of each distribution.
@@ -93,8 +93,8 @@ impl Design {
     ///
     /// [`Error::Value`] for an empty list, no points, more rows than [`MOST_ROWS`], more distributions than Sobol's
     /// sequence has coordinates, and impossible correlations.
-    pub fn new(wanted: Wanted) -> Result<Self> {
-        let Wanted { lists, drawn, correlations, points, spread, seed } = wanted;
+    pub fn new(wanted: DesignTerms) -> Result<Self> {
+        let DesignTerms { lists, drawn, correlations, points, spread, seed } = wanted;
         drawn.iter().try_for_each(Distribution::check)?;
         // Without random numbers every combination is one row.
         let points = if drawn.is_empty() { points.min(1) } else { points };
@@ -108,12 +108,12 @@ impl Design {
                 return Err(Error::value("points", found, format!("{MOST_ROWS} rows at most")));
             }
         }
-        if spread == Spread::Sobol && drawn.len() > MOST_COORDINATES {
+        if spread == PointSpread::Sobol && drawn.len() > MOST_COORDINATES {
             let expected = format!("{MOST_COORDINATES} at most with the design sobol");
             return Err(Error::value("vary", format!("{} distributions", drawn.len()), expected));
         }
         let factor = cholesky(drawn.len(), &correlations)?;
-        let sobol = Sobol::new(if spread == Spread::Sobol { drawn.len() } else { 0 }, seed);
+        let sobol = Sobol::new(if spread == PointSpread::Sobol { drawn.len() } else { 0 }, seed);
         Ok(Self { lists, drawn, factor, points, spread, seed, sobol })
     }
 
@@ -123,7 +123,7 @@ impl Design {
     }
 
     /// Row k, counted from 0.
-    pub fn row(&self, k: u64) -> Row {
+    pub fn row(&self, k: u64) -> DesignRow {
         let (mut combination, point) = (k / self.points, k % self.points);
         let mut picks = vec![0; self.lists.len()];
         for (pick, list) in picks.iter_mut().zip(&self.lists).rev() {
@@ -140,29 +140,29 @@ impl Design {
             let score = row.iter().zip(&scores).map(|(part, score)| part * score).sum();
             distribution.quantile(share_below(score).clamp(f64::MIN_POSITIVE, 1.0 - f64::EPSILON))
         };
-        Row { picks, values: self.drawn.iter().enumerate().map(value).collect() }
+        DesignRow { picks, values: self.drawn.iter().enumerate().map(value).collect() }
     }
 
     /// Representative rows: combinations of the lists with the median of every distribution, the first of every list
     /// before all others, and rows of the design; at most `some` of both, evenly spaced.
-    pub fn examples(&self, some: u64) -> impl Iterator<Item = Row> {
-        let Row { values, .. } = self.middle();
+    pub fn examples(&self, some: u64) -> impl Iterator<Item = DesignRow> {
+        let DesignRow { values, .. } = self.middle();
         let combined = spread_evenly(self.combinations(), some);
-        let combined = combined
-            .map(move |k| Row { picks: self.row(k * self.points).picks, values: values.clone() });
+        let picks = |k: u64| self.row(k * self.points).picks;
+        let combined = combined.map(move |k| DesignRow { picks: picks(k), values: values.clone() });
         combined.chain(spread_evenly(self.rows(), some).map(|k| self.row(k)))
     }
 
     /// The first value of every list with the median of every distribution.
-    pub fn middle(&self) -> Row {
+    pub fn middle(&self) -> DesignRow {
         let values = self.drawn.iter().map(|drawn| drawn.quantile(0.5)).collect();
-        Row { picks: vec![0; self.lists.len()], values }
+        DesignRow { picks: vec![0; self.lists.len()], values }
     }
 
     /// Rows that differ from this one along one axis only: by `some` other values of a list, or by both quartiles of a
     /// distribution.
-    pub fn beside(&self, row: &Row, axis: Axis, some: u64) -> Vec<Row> {
-        let other = |change: &dyn Fn(&mut Row)| {
+    pub fn beside(&self, row: &DesignRow, axis: Axis, some: u64) -> Vec<DesignRow> {
+        let other = |change: &dyn Fn(&mut DesignRow)| {
             let mut other = row.clone();
             change(&mut other);
             other
@@ -207,9 +207,9 @@ impl Design {
     fn share(&self, point: u64, coordinate: usize) -> f64 {
         let thrown = || between(of(self.seed, coordinate as u64, point));
         match self.spread {
-            Spread::Sobol => self.sobol.at(point, coordinate),
-            Spread::Random => thrown(),
-            Spread::LatinHypercube => {
+            PointSpread::Sobol => self.sobol.at(point, coordinate),
+            PointSpread::Random => thrown(),
+            PointSpread::LatinHypercube => {
                 let own = of(self.seed, coordinate as u64, u64::MAX);
                 let part = shuffled(own, self.points, point) as f64;
                 // Rounding may not carry it out of the cube.
@@ -252,16 +252,17 @@ mod tests {
 
     const NORMAL: Distribution = Distribution::Normal { mean: 0.0, deviation: 1.0 };
 
-    fn design(spread: Spread, correlations: &[(usize, usize, f64)], points: u64) -> Design {
+    fn design(spread: PointSpread, correlations: &[(usize, usize, f64)], points: u64) -> Design {
         let drawn = vec![NORMAL, Distribution::Uniform { from: 0.0, to: 1.0 }, NORMAL];
         let correlations = correlations.to_vec();
-        let wanted = Wanted { lists: vec![2, 3], drawn, correlations, points, spread, seed: 5 };
+        let wanted =
+            DesignTerms { lists: vec![2, 3], drawn, correlations, points, spread, seed: 5 };
         Design::new(wanted).unwrap()
     }
 
     #[test]
     fn lists_are_combined_and_each_combination_has_the_same_points() {
-        for spread in [Spread::Sobol, Spread::LatinHypercube, Spread::Random] {
+        for spread in [PointSpread::Sobol, PointSpread::LatinHypercube, PointSpread::Random] {
             let design = design(spread, &[], 7);
             assert_eq!(design.rows(), 42);
             let picks: Vec<_> = (0..42).step_by(7).map(|k| design.row(k).picks).collect();
@@ -274,7 +275,7 @@ mod tests {
 
     #[test]
     fn a_latin_hypercube_takes_every_part_of_every_distribution_once() {
-        let design = design(Spread::LatinHypercube, &[], 100);
+        let design = design(PointSpread::LatinHypercube, &[], 100);
         let mut parts: Vec<_> =
             (0..100).map(|k| (100.0 * design.row(k).values[1]) as usize).collect();
         parts.sort_unstable();
@@ -286,7 +287,7 @@ mod tests {
     #[test]
     fn numbers_go_with_each_other_as_asked_and_stay_what_they_are() {
         let count = 1 << 14;
-        let design = design(Spread::Sobol, &[(0, 2, 0.6), (0, 1, -0.5)], count);
+        let design = design(PointSpread::Sobol, &[(0, 2, 0.6), (0, 1, -0.5)], count);
         let rows: Vec<Vec<f64>> = (0..count).map(|k| design.row(k).values).collect();
         let mean =
             |of: &dyn Fn(&[f64]) -> f64| rows.iter().map(|row| of(row)).sum::<f64>() / count as f64;
@@ -311,7 +312,13 @@ mod tests {
     fn what_cannot_be_is_refused() {
         let wanted = |correlations: &[(usize, usize, f64)], lists: &[u64], points| {
             let (correlations, lists) = (correlations.to_vec(), lists.to_vec());
-            Wanted { lists, drawn: vec![NORMAL; 3], correlations, points, ..Wanted::default() }
+            DesignTerms {
+                lists,
+                drawn: vec![NORMAL; 3],
+                correlations,
+                points,
+                ..DesignTerms::default()
+            }
         };
         for (wrong, says) in [
             (wanted(&[(0, 1, 1.0)], &[], 8), "between -1 and 1"),
@@ -320,11 +327,14 @@ mod tests {
             (wanted(&[], &[0], 8), "one row at least"),
             (wanted(&[], &[1_000_000, 1_000_000], 8), "rows at most"),
             (wanted(&[], &[u64::MAX, 2], 8), "rows at most"),
-            (Wanted { drawn: vec![NORMAL; 65], ..wanted(&[], &[], 8) }, "64 at most"),
+            (DesignTerms { drawn: vec![NORMAL; 65], ..wanted(&[], &[], 8) }, "64 at most"),
         ] {
             let said = Design::new(wrong).unwrap_err().to_string();
             assert!(said.contains(says), "{said}");
         }
-        assert_eq!(Design::new(Wanted { points: 3, ..Wanted::default() }).unwrap().rows(), 1);
+        assert_eq!(
+            Design::new(DesignTerms { points: 3, ..DesignTerms::default() }).unwrap().rows(),
+            1
+        );
     }
 }

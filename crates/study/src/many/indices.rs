@@ -85,16 +85,16 @@ impl Indices {
             terms.is_some_and(|terms| terms <= MOST_TERMS && ROWS_A_TERM * terms <= rows.len())
         })?;
         let exponents = exponents(kinds.len(), degree);
-        let mut groups = vec![Sums::new(exponents.len()); GROUPS];
+        let mut groups = vec![RegressionSums::new(exponents.len()); GROUPS];
         let shift = rows.iter().map(|(_, y)| y).sum::<f64>() / rows.len() as f64;
         for (k, (numbers, y)) in rows.iter().enumerate() {
             groups[mixed(k as u64) as usize % GROUPS]
                 .add(&values(kinds, numbers, &exponents, degree), y - shift);
         }
-        let mut all = Sums::new(exponents.len());
+        let mut all = RegressionSums::new(exponents.len());
         groups.iter().for_each(|group| all.put(group, 1.0));
         let count = of_each.iter().map(|group| group + 1).max().unwrap_or(0);
-        let of = |sums: &Sums| shares(sums, &exponents, (of_each, count));
+        let of = |sums: &RegressionSums| shares(sums, &exponents, (of_each, count));
         let whole = of(&all)?;
         let mut parts = vec![];
         for group in &groups {
@@ -176,13 +176,13 @@ fn orthonormal(kind: VariateKind, x: f64, degree: usize) -> Vec<f64> {
 
 /// Sums over rows: of products of polynomials, of those with the answer, of the answer and its square.
 #[derive(Clone)]
-struct Sums {
+struct RegressionSums {
     products: Vec<Vec<f64>>,
     with_answer: Vec<f64>,
     answer: [f64; 3],
 }
 
-impl Sums {
+impl RegressionSums {
     fn new(terms: usize) -> Self {
         let products = (1..=terms).map(|k| vec![0.0; k]).collect();
         Self { products, with_answer: vec![0.0; terms], answer: [0.0; 3] }
@@ -234,7 +234,7 @@ impl Sums {
 
 /// First-order shares, total shares, and what is left.
 fn shares(
-    sums: &Sums,
+    sums: &RegressionSums,
     exponents: &[Vec<usize>],
     (groups, count): (&[usize], usize),
 ) -> Option<Vec<f64>> {

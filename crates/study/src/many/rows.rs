@@ -17,7 +17,7 @@ use sweetspot::collision::sweep as hit;
 
 /// The outputs for every bat.
 #[derive(Debug, Clone)]
-pub struct Asked {
+pub struct Questions {
     /// The answers, in the order of the columns.
     pub answers: Vec<Answer>,
     /// Accuracy of frequencies, relative, and of exit speeds, relative to the closing speed.
@@ -26,7 +26,7 @@ pub struct Asked {
 
 /// How a bat is hit.
 #[derive(Debug, Clone)]
-pub struct Trial {
+pub struct BatTrial {
     /// Swing, ball and pitch.
     pub scene: Scene,
     /// How a hit is computed.
@@ -81,12 +81,12 @@ struct Ready {
     bat: Bat,
     request: Request,
     /// The hit and its places (m from the knob end), if there is one.
-    trial: Option<(Trial, Vec<f64>)>,
+    trial: Option<(BatTrial, Vec<f64>)>,
     /// The reason if the requested hit is impossible.
     off: Option<Error>,
 }
 
-impl Asked {
+impl Questions {
     /// The outputs for each of several bats similar to `model`, in order; `trial` receives the index of a bat and the
     /// bat with moduli fitted to its tap.
     ///
@@ -99,7 +99,7 @@ impl Asked {
     pub fn of_each<'a>(
         model: &Bat,
         bats: Vec<(&'a Self, Result<Bat>)>,
-        trial: impl Fn(usize, &Bat) -> Result<Trial>,
+        trial: impl Fn(usize, &Bat) -> Result<BatTrial>,
     ) -> Vec<Result<BatAnswers>> {
         let ready = |(k, (asked, bat)): (usize, (&'a Self, Result<Bat>))| {
             (asked, bat.and_then(|bat| asked.ready(bat, |bat| trial(k, bat))))
@@ -130,7 +130,7 @@ impl Asked {
     }
 
     /// The bat with moduli fitted to its tap, and the data for its answers.
-    fn ready(&self, bat: Bat, trial: impl FnOnce(&Bat) -> Result<Trial>) -> Result<Ready> {
+    fn ready(&self, bat: Bat, trial: impl FnOnce(&Bat) -> Result<BatTrial>) -> Result<Ready> {
         let modes = self.answers.iter().map(|answer| answer.modes()).max().unwrap_or(0);
         let hit = self.answers.iter().any(|answer| answer.of_a_hit());
         let modes = if hit { modes.max(Request::default().modes) } else { modes };
@@ -152,7 +152,8 @@ impl Asked {
     /// The answers of a bat that was hit: those about modes from the modes of the hit, if these are accurate enough.
     fn with_hits(&self, ready: &Ready, sweep: &Sweep) -> Result<BatAnswers> {
         let Ready { bat, request, trial, .. } = ready;
-        let (Trial { scene, model }, _) = trial.as_ref().expect("a bat that was hit has its trial");
+        let (BatTrial { scene, model }, _) =
+            trial.as_ref().expect("a bat that was hit has its trial");
         let asked = self.answers.iter().map(|answer| answer.modes()).max().unwrap_or(0);
         let found = match sweep.solution.modes.len() >= asked {
             true => self.of_modes(bat, &sweep.solution)?,
@@ -191,7 +192,7 @@ impl Asked {
 
 impl Ready {
     fn blow(&self) -> Option<Blow<'_>> {
-        let (Trial { scene, model, .. }, places) = self.trial.as_ref()?;
+        let (BatTrial { scene, model, .. }, places) = self.trial.as_ref()?;
         let trial = hit::Trial { model: *model, scene };
         let accuracy = trial.accuracy(&self.request, false);
         Some(Blow { bat: &self.bat, trial, accuracy, places })

@@ -101,7 +101,7 @@ pub fn place(
 
 /// The points in one of two orders, the fit of the other one if it is possible, and the reason for the choice if the
 /// file does not decide.
-type Choice = (Placed, Option<f64>, Option<&'static str>);
+type ChosenOrder = (Placed, Option<f64>, Option<&'static str>);
 
 impl Placed {
     /// How well the shapes fit this way.
@@ -110,7 +110,7 @@ impl Placed {
     }
 }
 
-fn choose(wanted: Option<End>, knob: Result<Placed>, tip: Result<Placed>) -> Result<Choice> {
+fn choose(wanted: Option<End>, knob: Result<Placed>, tip: Result<Placed>) -> Result<ChosenOrder> {
     let fits = [&knob, &tip].map(|way| way.as_ref().ok().map(Placed::fit));
     Ok(match (wanted, knob, tip) {
         (Some(End::Knob), knob, _) => (knob?, fits[1], None),

@@ -13,7 +13,7 @@ use crate::engine::{
 };
 use crate::many::design::Design;
 use crate::many::indices::VariateKind;
-use crate::many::rows::{Asked, BatAnswers, Trial};
+use crate::many::rows::{BatAnswers, BatTrial, Questions};
 use crate::scatter::spreads::{Differences, Differs, SCRAMBLES, softened};
 
 /// The exit speed at the varying impact point, as an output.
@@ -57,7 +57,7 @@ pub struct ScatterPlan {
     pub impact: Option<f64>,
     /// The outputs.
     pub outputs: Vec<Output>,
-    /// Accuracy, as of [`Asked`].
+    /// Accuracy, as of [`Questions`].
     pub tolerance: f64,
     /// Rows, a power of two.
     pub points: u64,
@@ -168,12 +168,12 @@ impl ScatterRows {
     }
 
     fn of(&self, rows: &[Vec<f64>]) -> Vec<Result<BatAnswers>> {
-        let asked: Vec<Asked> = rows.iter().map(|values| self.asked(values)).collect();
+        let asked: Vec<Questions> = rows.iter().map(|values| self.asked(values)).collect();
         let bats = asked.iter().zip(rows).map(|(asked, values)| (asked, self.changed(values)));
-        Asked::of_each(&self.middle, bats.collect(), |k, bat| self.trial(&rows[k], bat))
+        Questions::of_each(&self.middle, bats.collect(), |k, bat| self.trial(&rows[k], bat))
     }
 
-    fn asked(&self, values: &[f64]) -> Asked {
+    fn asked(&self, values: &[f64]) -> Questions {
         let moved = self.impact + self.one(values, Differs::Impact);
         let place = moved.clamp(0.0, self.bat.length());
         let answer = |output: &Output| match output {
@@ -181,7 +181,7 @@ impl ScatterRows {
             Output::AtImpact => Answer::ExitSpeedAt(place),
         };
         let answers = self.plan.outputs.iter().map(answer).collect();
-        Asked { answers, tolerance: self.plan.tolerance }
+        Questions { answers, tolerance: self.plan.tolerance }
     }
 
     /// The number of a difference; 0 if it does not differ.
@@ -190,7 +190,7 @@ impl ScatterRows {
         place.map_or(0.0, |k| self.own(values, k)[0])
     }
 
-    fn trial(&self, values: &[f64], bat: &Bat) -> Result<Trial> {
+    fn trial(&self, values: &[f64], bat: &Bat) -> Result<BatTrial> {
         let impact = self.impact + self.one(values, Differs::Impact);
         if !(0.0..=bat.length()).contains(&impact) {
             let expected = format!("0 to {}", shown_length(bat.length()));
@@ -209,7 +209,7 @@ impl ScatterRows {
             setup.ball.cor_by_speed.iter_mut().for_each(|[_, cor]| *cor = moved(*cor));
         }
         let (model, tolerance) = (setup.model()?, Some(self.plan.tolerance));
-        Ok(Trial { scene: setup.scene(bat, tolerance)?.0, model })
+        Ok(BatTrial { scene: setup.scene(bat, tolerance)?.0, model })
     }
 
     /// The bat with these numbers.

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
+use crate::engine::Result;
 use crate::many::indices::Indices;
 use crate::many::rows::{BatAnswers, in_groups};
 use crate::scatter::rows::{Output, ScatterRows, value};
@@ -25,8 +26,8 @@ pub struct Percentile {
     pub percent: f64,
     /// Its value.
     pub value: f64,
-    /// Half of its 95 % interval, from the differences between the scrambles.
-    // None if one of them has no answer.
+    /// Half of its 95 % interval, from the differences between the scrambles or from ranks; null if there are too few
+    /// rows.
     pub error: Option<f64>,
 }
 
@@ -101,8 +102,8 @@ pub struct Scattered {
 }
 
 /// Why a row lacks an answer.
-fn lacking(found: &BatAnswers) -> String {
-    found.off.as_ref().map_or("the bat has no such answer".to_owned(), ToString::to_string)
+fn lacking(found: &BatAnswers, output: &Output) -> String {
+    found.off.as_ref().map_or(format!("the bat has no {}", output.name()), ToString::to_string)
 }
 
 impl Scattered {
@@ -138,26 +139,31 @@ impl Scattered {
     /// # }
     /// ```
     pub fn new(rows: &ScatterRows, tell: &(impl Fn(u64) + Sync)) -> Self {
-        let (count, asked) = (rows.count(), rows.plan.outputs.len());
-        let mut values: Vec<Vec<Option<f64>>> = vec![vec![]; asked];
-        let (mut missing, mut met) = (vec![], 0);
-        for found in in_groups(0..count, |some| rows.answers(some), tell) {
-            let (all, why, good) = match found {
-                Ok(found) => {
-                    let all: Vec<_> = found.figures.iter().map(value).collect();
-                    let whole = all.iter().all(Option::is_some);
-                    let why = if whole { String::new() } else { lacking(&found) };
-                    (all, why, found.met && whole)
-                }
-                Err(error) => (vec![None; asked], error.to_string(), false),
-            };
-            values.iter_mut().zip(all).for_each(|(column, value)| column.push(value));
-            missing.push(why);
-            met += usize::from(good);
-        }
-        let whole = |row: usize| values.iter().all(|column| column[row].is_some());
+        let count = rows.count();
+        let found = in_groups(0..count, |some| rows.answers(some), tell);
+        let column = |k: usize| -> Vec<Option<f64>> {
+            found.iter().map(|row| value(&row.as_ref().ok()?.figures[k])).collect()
+        };
+        let values: Vec<Vec<Option<f64>>> = (0..rows.plan.outputs.len()).map(column).collect();
+        // An output that no bat has, as the node of a mode without nodes, leaves the other outputs.
+        let somewhere = |column: &Vec<Option<f64>>| column.iter().any(Option::is_some);
+        let held: Vec<bool> = values.iter().map(somewhere).collect();
+        let lacks = |row: usize| {
+            let lacked = (0..values.len()).find(|k| held[*k] && values[*k][row].is_none());
+            lacked.or_else(|| (!held.contains(&true)).then_some(0))
+        };
+        let why = |(row, found): (usize, &Result<BatAnswers>)| match (found, lacks(row)) {
+            (Err(error), _) => error.to_string(),
+            (Ok(found), Some(k)) => lacking(found, &rows.plan.outputs[k]),
+            (Ok(_), None) => String::new(),
+        };
+        let missing: Vec<String> = found.iter().enumerate().map(why).collect();
+        let good = |(found, why): (&Result<BatAnswers>, &String)| {
+            why.is_empty() && found.as_ref().is_ok_and(|found| found.met)
+        };
+        let met = found.iter().zip(&missing).filter(|row| good(*row)).count();
         // A row without one of its answers is dropped whole.
-        let whole: Vec<usize> = (0..count as usize).filter(|row| whole(*row)).collect();
+        let whole: Vec<usize> = (0..missing.len()).filter(|row| missing[*row].is_empty()).collect();
         let numbers: Vec<Vec<f64>> = whole.iter().map(|row| rows.numbers(*row as u64)).collect();
         let outputs = rows.plan.outputs.iter().zip(values).map(|(output, values)| {
             let fitted: Vec<(Vec<f64>, f64)> = whole
@@ -165,7 +171,7 @@ impl Scattered {
                 .zip(&numbers)
                 .filter_map(|(row, numbers)| Some((numbers.clone(), values[*row]?)))
                 .collect();
-            let (mean, sd) = moments(&values).unzip();
+            let (mean, sd) = moments(values.iter().flatten().copied()).unzip();
             let differ = mean.zip(sd).is_some_and(|(mean, sd)| sd > ROUND_OFF * f64::abs(mean));
             let indices = differ.then(|| Indices::grouped(&rows.kinds(), &rows.groups, &fitted));
             OutputSpread {
@@ -218,9 +224,12 @@ fn counted(missing: &[String]) -> Vec<ReasonCounted> {
     all
 }
 
-/// The percentiles, each with the error from eight scrambles: their mean, and its Student interval. If a scramble has
-/// too few rows for a percentile, the value is that of all rows together.
+/// The percentiles: the mean of those of eight scrambles, with its Student interval. If a scramble has too few rows for
+/// a percentile, the value is that of all rows together; if it has too few for an interval, the interval is that of
+/// ranks for independent rows, `p n ± 1.96 √(p (1 − p) n)`, and there is none beyond the rows.
 fn percentiles(values: &[Option<f64>]) -> Vec<Percentile> {
+    /// Rows of a scramble beyond a percentile that make its value as good as the mean, and its error normal.
+    const ENOUGH: [f64; 2] = [0.5, 4.0];
     let all = sorted(values);
     let each: Vec<Vec<f64>> =
         values.chunks(values.len() / SCRAMBLES as usize).map(sorted).collect();
@@ -228,23 +237,33 @@ fn percentiles(values: &[Option<f64>]) -> Vec<Percentile> {
     let of = |share: f64| {
         let together = percentile(&all, share)?;
         let percent = (1e4 * share).round() / 100.0;
+        let tail = fewest * share.min(1.0 - share);
         let own: Option<Vec<f64>> = each.iter().map(|one| percentile(one, share)).collect();
-        let Some(own) = own else {
-            return Some(Percentile { percent, value: together, error: None });
+        let own = own.filter(|_| tail >= ENOUGH[0]).unwrap_or_default();
+        let (mean, sd) = moments(own.iter().copied()).unwrap_or((together, 0.0));
+        let error = match tail >= ENOUGH[1] {
+            true => Some(STUDENT * sd / (own.len() as f64).sqrt()),
+            false => by_ranks(&all, share).map(|ends| {
+                ends.into_iter().fold(0.0, |most: f64, end| most.max((end - mean).abs()))
+            }),
         };
-        let count = own.len() as f64;
-        let mean = own.iter().sum::<f64>() / count;
-        let squares = own.iter().map(|v| (v - mean).powi(2)).sum::<f64>();
-        let error = Some(STUDENT * (squares / (count - 1.0) / count).sqrt());
-        let enough = fewest * share.min(1.0 - share) >= 0.5;
-        Some(Percentile { percent, value: if enough { mean } else { together }, error })
+        Some(Percentile { percent, value: mean, error })
     };
     SHARES.iter().filter_map(|share| of(*share)).collect()
 }
 
+/// The 95 % interval of a percentile of independent values by their ranks; `None` if it ends beyond them.
+fn by_ranks(sorted: &[f64], share: f64) -> Option<[f64; 2]> {
+    let count = sorted.len() as f64;
+    let off = 1.96 * (share * (1.0 - share) / count).sqrt();
+    let ends = [share - off, share + off];
+    let within = ends[0] * count >= 0.5 && ends[1] * count <= count - 0.5;
+    within.then_some([percentile(sorted, ends[0])?, percentile(sorted, ends[1])?])
+}
+
 /// Mean and standard deviation.
-fn moments(values: &[Option<f64>]) -> Option<(f64, f64)> {
-    let known: Vec<f64> = values.iter().flatten().copied().collect();
+fn moments(values: impl IntoIterator<Item = f64>) -> Option<(f64, f64)> {
+    let known: Vec<f64> = values.into_iter().collect();
     let count = known.len() as f64;
     let mean = known.iter().sum::<f64>() / count;
     let squares = known.iter().map(|value| (value - mean).powi(2)).sum::<f64>();
@@ -274,33 +293,39 @@ mod tests {
     use crate::scatter::spreads::{Difference, Differences, Differs};
 
     /// For a normal number and a sum of two, 95 of 100 intervals contain the percentile, as far as 1500 intervals can
-    /// show.
+    /// show: many rows and few, the middle and the ends.
     #[test]
     fn ninety_five_of_a_hundred_intervals_hold_the_percentile() {
         let one = |what| Difference { what, deviation: 1.0 };
         let all = vec![one(Differs::Density), one(Differs::Pitch)];
         let differences = Differences { all, correlations: vec![] };
-        let (mut within, mut of) = ([0, 0], 0);
-        for seed in 0..250 {
-            let designs = differences.designs(1.0, 1024, seed).unwrap();
-            let rows: Vec<Vec<f64>> =
-                designs.iter().flat_map(|design| (0..128).map(|k| design.row(k).values)).collect();
-            let values = [
-                rows.iter().map(|row| Some(row[0])).collect::<Vec<_>>(),
-                rows.iter().map(|row| Some(0.8 * row[0] + 0.6 * row[1])).collect(),
-            ];
-            for (within, values) in within.iter_mut().zip(&values) {
-                for one in
-                    percentiles(values).iter().filter(|one| (4.0..96.0).contains(&one.percent))
+        for (count, seeds) in [(1024, 250), (256, 250), (64, 500)] {
+            // For each percentile: intervals that hold it, and all.
+            let mut held = SHARES.map(|_| [0; 2]);
+            for seed in 0..seeds {
+                let designs = differences.designs(1.0, count, seed).unwrap();
+                let each = count / SCRAMBLES;
+                let rows: Vec<Vec<f64>> = designs
+                    .iter()
+                    .flat_map(|design| (0..each).map(|k| design.row(k).values))
+                    .collect();
+                let values = [
+                    rows.iter().map(|row| Some(row[0])).collect::<Vec<_>>(),
+                    rows.iter().map(|row| Some(0.8 * row[0] + 0.6 * row[1])).collect(),
+                ];
+                for (k, one) in
+                    values.iter().flat_map(|values| percentiles(values).into_iter().enumerate())
                 {
+                    let Some(error) = one.error else { continue };
                     let off = one.value - standard_normal(0.01 * one.percent);
-                    *within += usize::from(off.abs() <= one.error.unwrap());
+                    held[k][0] += usize::from(off.abs() <= error);
+                    held[k][1] += 1;
                 }
             }
-            of += 5;
+            for (share, [held, all]) in SHARES.iter().zip(held) {
+                assert!(held as f64 >= 0.92 * all as f64, "{count} {share}: {held} of {all}");
+            }
+            assert!(held[3][1] > 0, "the middle has an interval");
         }
-        let shares = within.map(|within| f64::from(within as u32) / f64::from(of));
-
-        assert!(shares.iter().all(|share| *share > 0.93), "{shares:?}");
     }
 }

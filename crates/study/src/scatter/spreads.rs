@@ -10,7 +10,7 @@
 //! saturation); give a calibrated figure where it matters.
 
 use crate::engine::{Error, Result};
-use crate::many::design::{Design, Spread, Wanted};
+use crate::many::design::{Design, DesignTerms, PointSpread};
 use crate::many::distribution::Distribution;
 use crate::scatter::turning::Turning;
 
@@ -141,12 +141,12 @@ impl Differences {
         };
         let drawn: Vec<Distribution> = groups.iter().map(normal).collect();
         let design = |scramble: u64| {
-            Design::new(Wanted {
+            Design::new(DesignTerms {
                 lists: vec![],
                 drawn: drawn.clone(),
                 correlations: correlations.clone(),
                 points: points / SCRAMBLES,
-                spread: Spread::Sobol,
+                spread: PointSpread::Sobol,
                 seed: crate::many::hash::of(seed, scramble, 0),
             })
         };

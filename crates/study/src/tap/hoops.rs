@@ -16,7 +16,7 @@ use crate::calibrate::readings::{BatReadings, Priors, SpectralLine};
 use crate::calibrate::unknowns::UNKNOWNS;
 use crate::calibrate::wood::WoodenBat;
 use crate::tap::heard::HeardLine;
-use sweetspot::base::error::Result;
+use sweetspot::base::Result;
 use sweetspot::beam::wall::extent::rings;
 use sweetspot::modes::hoop::{Hoop, HoopMode};
 

@@ -9,8 +9,8 @@ use crate::calibrate::readings::{BatReadings, Priors, RingDown, SpectralLine};
 use crate::calibrate::wood::WoodenBat;
 use crate::tap::heard::{HeardLine, Within, lines};
 use crate::tap::hoops::{self, BatMode, Known, NextLabels, metal};
-use sweetspot::base::error::{Error, Result};
-use sweetspot::bat::body::{Bat, STANDARD_PIVOT};
+use sweetspot::base::{Error, Result};
+use sweetspot::bat::{Bat, STANDARD_PIVOT};
 
 /// Most lines without a given mode that are labelled.
 const MOST_UNTOLD: usize = 10;

@@ -70,7 +70,8 @@ pub fn measure(
     let started = Instant::now();
     tell(0.0, "the reference");
     let reference = Reference::of(bat, modes, theory)?;
-    let mut bench = Bench { bat, reference, started, budget: budget.as_secs_f64(), runs: vec![] };
+    let mut bench =
+        TimingBench { bat, reference, started, budget: budget.as_secs_f64(), runs: vec![] };
     bench.ask_planner(tell)?;
     let time = budget.mul_f64(COLUMNS).saturating_sub(started.elapsed());
     let finer = |_, what: &str| tell(bench.share(), what);
@@ -84,20 +85,20 @@ pub fn measure(
 }
 
 /// A run with its request and all its times.
-struct Measured {
+struct TimedRun {
     run: Run,
     request: Request,
     samples: Vec<f64>,
 }
 
 /// The runs so far and the clock.
-struct Bench<'a> {
+struct TimingBench<'a> {
     bat: &'a Bat,
     reference: Reference,
     started: Instant,
     /// Time that may be spent (s).
     budget: f64,
-    runs: Vec<Measured>,
+    runs: Vec<TimedRun>,
 }
 
 /// The rungs of one degree and solver.
@@ -113,7 +114,7 @@ struct Ladder {
     done: bool,
 }
 
-impl Bench<'_> {
+impl TimingBench<'_> {
     /// Whether that share of the time is not over.
     fn before(&self, part: f64) -> bool {
         self.started.elapsed().as_secs_f64() < part * self.budget
@@ -205,7 +206,7 @@ impl Bench<'_> {
     }
 
     /// Solves once to warm up, then again as often as the slice allows.
-    fn timed(&self, request: Request) -> Result<Measured> {
+    fn timed(&self, request: Request) -> Result<TimedRun> {
         let (solution, first) = self.once(&request)?;
         let slice = SLICE * self.budget;
         let mut samples = Vec::new();
@@ -231,7 +232,7 @@ impl Bench<'_> {
             planned_for: None,
             on_front: false,
         };
-        Ok(Measured { run, request, samples })
+        Ok(TimedRun { run, request, samples })
     }
 
     /// A solution and the seconds it took.
@@ -264,7 +265,7 @@ impl Bench<'_> {
                 }
             }
         }
-        for Measured { run, samples, .. } in &mut self.runs {
+        for TimedRun { run, samples, .. } in &mut self.runs {
             (run.seconds, run.repeats) = (median(samples), samples.len());
         }
     }

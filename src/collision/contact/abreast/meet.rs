@@ -3,7 +3,7 @@
 use faer::c64;
 use pulp::{Simd, WithSimd};
 
-use crate::base::lanes::widest;
+use crate::base::widest;
 use crate::collision::contact::abreast::places::{Abreast, Kept};
 use crate::collision::contact::abreast::schedule::{Schedule, Stage};
 use crate::collision::contact::collider::{

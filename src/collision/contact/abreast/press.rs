@@ -9,7 +9,7 @@
 
 use crate::collision::contact::abreast::places::{Abreast, Coupling, Kept, Move, Turned, Walked};
 use crate::collision::contact::abreast::schedule::{Schedule, Stage};
-use crate::collision::contact::abreast::solve::Solved;
+use crate::collision::contact::abreast::solve::SolvedStep;
 use crate::collision::contact::collocation::{LANES, POINTS};
 use crate::collision::contact::each::Each;
 use crate::collision::contact::power_law::PowerLaw;
@@ -168,7 +168,7 @@ impl<const W: usize> Abreast<'_, W> {
     /// ([`crate::collision::contact::events`]), or where too much energy is left in the last of the force, a fractional
     /// power of the time.
     #[inline(always)]
-    fn may_pass(&self, solved: &Solved<W>, length: f64) -> Each<W> {
+    fn may_pass(&self, solved: &SolvedStep<W>, length: f64) -> Each<W> {
         let Some([top, _]) = self.top else { return Each::default() };
         let mut least = self.now.compression;
         for x in solved.x {
@@ -195,7 +195,7 @@ impl<const W: usize> Abreast<'_, W> {
     /// The places where the compression reaches its maximum in a step, or reaches it again by its end; and the places
     /// whose points show no other turn.
     #[inline(always)]
-    fn event(&self, solved: &Solved<W>) -> (Each<W>, Each<W>) {
+    fn event(&self, solved: &SolvedStep<W>) -> (Each<W>, Each<W>) {
         let mut smooth = Each::all(1.0);
         if let Some([_, most]) = self.top {
             for force in &solved.force[1..] {
@@ -279,7 +279,7 @@ impl<const W: usize> Abreast<'_, W> {
 
     /// Records the data of a step that the changes need.
     #[inline(always)]
-    pub(super) fn keep(&mut self, level: usize, solved: &Solved<W>, taken: Each<W>) {
+    pub(super) fn keep(&mut self, level: usize, solved: &SolvedStep<W>, taken: Each<W>) {
         let (table, first) = (self.collider.table(level), self.weights.len() - self.differ);
         let mut points = vec![[Each::default(); AHEAD]; self.differ];
         for k in 0..self.differ {

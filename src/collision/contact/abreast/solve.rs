@@ -7,7 +7,7 @@ use crate::collision::contact::step::AHEAD;
 use crate::collision::contact::table::StepTable;
 
 /// A step's forces.
-pub(super) struct Solved<const W: usize> {
+pub(super) struct SolvedStep<const W: usize> {
     pub x: [Each<W>; AHEAD],
     pub force: [Each<W>; POINTS],
     pub slope: [Each<W>; AHEAD],
@@ -78,7 +78,7 @@ impl<const W: usize> Abreast<'_, W> {
         table: &StepTable,
         coupling: &Coupling<W>,
         idle: Each<W>,
-    ) -> Solved<W> {
+    ) -> SolvedStep<W> {
         const ROUNDS: usize = 16;
         /// Largest rise of the compression in one round on the way back, as a share of it and times `fine`.
         const RISE: f64 = 0.2;
@@ -118,7 +118,7 @@ impl<const W: usize> Abreast<'_, W> {
             converged = converged.or(near);
         }
         let [a, b, c, d] = f;
-        Solved { x, force: [self.now.force, a, b, c, d], slope, found }
+        SolvedStep { x, force: [self.now.force, a, b, c, d], slope, found }
     }
 
     /// A guess of the compressions (m) ahead: the last step's polynomial continued, but at most the compressions
@@ -174,7 +174,11 @@ impl<const W: usize> Abreast<'_, W> {
     }
 
     #[inline(always)]
-    pub(super) fn advance(&mut self, table: &StepTable, Solved { x, force, .. }: &Solved<W>) {
+    pub(super) fn advance(
+        &mut self,
+        table: &StepTable,
+        SolvedStep { x, force, .. }: &SolvedStep<W>,
+    ) {
         let (h, end) = (table.length, POINTS - 1);
         let (mut push, mut back) = (Each::default(), Each::default());
         for j in 0..POINTS {

@@ -1,16 +1,14 @@
 //! The coherence of a measured response: dataset 58, type 6.
 
-use uff58::{Dataset, Function, Universal, Values};
+use uff58::{Function, Universal, Values};
 
 /// Number of a coherence among the functions of dataset 58.
 const COHERENCE: i64 = 6;
 
 /// The coherence for the same force and response over the same frequencies, without the first `dropped`.
 pub fn of(universal: &Universal, response: &Function, dropped: usize) -> Option<Vec<f64>> {
-    let mut functions = universal.datasets.iter().filter_map(|dataset| match dataset {
-        Dataset::Function(function) if function.kind == COHERENCE => Some(&**function),
-        _ => None,
-    });
+    let all = universal.functions().map(|(_, function)| function);
+    let mut functions = all.filter(|function| function.kind == COHERENCE);
     let nodes = |one: &Function| [one.response.node, one.reference.node];
     let same = |other: &&Function| {
         nodes(other) == nodes(response) && other.values.len() == response.values.len()

@@ -11,7 +11,7 @@ use crate::files::measured::coherence;
 use crate::files::measured::direction::{Vector, axis};
 use crate::files::measured::places::Places;
 use crate::measured::response::MeasuredResponse;
-use uff58::{Dataset, Dof, Function, Units, Universal, Values, at_line};
+use uff58::{Dof, Function, Units, Universal, Values, at_line};
 
 /// Standard gravity (m/s²): some programs call their accelerations `g` and mean it.
 const GRAVITY: f64 = 9.80665;
@@ -117,50 +117,27 @@ impl ResponseFile<'_> {
         kind: ResponseKind,
         wrong: &impl Fn(usize, String, &str) -> Error,
     ) -> Result<(f64, Vec<String>)> {
-        let labels = Labels::of(function, kind);
-        let [own, below] = [1, 2].map(|k| &*function.axes[k].unit);
-        let named = |dataset: &Dataset| matches!(dataset, Dataset::Units(_));
-        if self.universal.datasets.iter().any(named) {
-            let own_units = self.universal.converted_from.clone().unwrap_or_else(Units::si);
-            let differ =
-                |label: Option<f64>, own: f64| label.is_some_and(|l| (l * own - 1.0).abs() > 1e-3);
-            if self.known.label.is_some() {
-                let expected = "no unit given beside it";
-                return Err(Error::value(&self.name, "its own units, in a dataset 164", expected));
-            }
-            let strange =
-                |label: &str, read: Option<f64>| read.is_none() && !plain(label).is_empty();
-            let contradicts = differ(labels.answer, own_units.length)
-                || differ(labels.force, own_units.force)
-                || strange(own, labels.answer)
-                || labels.torn;
-            let said = format!(
-                "the axes are named {own} and {below}, which contradicts the units in dataset 164; those of \
-                 dataset 164 are taken"
-            );
-            return Ok((1.0, Vec::from_iter(contradicts.then_some(said))));
+        let mut labels = AxisUnits::of(function, kind);
+        let named = [1, 2].map(|k| &*function.axes[k].unit);
+        if self.universal.names_units() {
+            return Ok((1.0, Vec::from_iter(self.contradiction(&labels, named)?)));
         }
         let mut assumed = vec![];
-        let told = self.known.label.as_deref();
-        if labels.torn && told.is_none() {
+        if let Some(text) = self.known.label.as_deref() {
+            labels = AxisUnits::read(text, "", kind);
+            if labels.answer.is_none() || labels.force.is_none() {
+                let expected = format!("a unit of {} such as {}", kind.name(), example(kind));
+                return Err(Error::value("--unit", text, expected));
+            }
+        } else if labels.torn {
             let said =
                 "the answer's axis names another unit of force than the force's: its own is taken";
             assumed.push(said.to_owned());
         }
-        let labels = match told {
-            Some(text) => {
-                let told = Labels::read(text, "", kind);
-                if told.answer.is_none() || told.force.is_none() {
-                    let expected = format!("a unit of {} such as {}", kind.name(), example(kind));
-                    return Err(Error::value("--unit", text, expected));
-                }
-                told
-            }
-            None => labels,
-        };
-        let given = self.known.unit.as_ref();
-        if told.is_none() && given.is_none() {
-            for (record, label, factor) in [(9, own, labels.answer), (10, below, labels.force)] {
+        let told = self.known.label.is_some();
+        if !told && self.known.unit.is_none() {
+            let factors = [labels.answer, labels.force];
+            for (record, (label, factor)) in (9..).zip(named.into_iter().zip(factors)) {
                 if factor.is_none() && !plain(label).is_empty() {
                     let found = format!("the unit \"{label}\"");
                     let expected = format!("one such as {}, or --unit", example(kind));
@@ -168,7 +145,7 @@ impl ResponseFile<'_> {
                 }
             }
         }
-        let given = given.cloned().unwrap_or_else(Units::si);
+        let given = self.known.unit.clone().unwrap_or_else(Units::si);
         let mut factor = 1.0;
         if let Some(answer) = labels.answer {
             factor *= answer * given.length;
@@ -176,12 +153,34 @@ impl ResponseFile<'_> {
         if let Some(force) = labels.force {
             factor /= force * given.force;
         }
-        let by = if told.is_some() { "as was told" } else { "as their axes are named" };
+        let by = if told { "as was told" } else { "as their axes are named" };
         assumed.extend(labels.words(kind).map(|words| format!("{words}, {by}")));
         if labels.answer.is_none() && self.known.unit.is_none() {
             assumed.push("the file names no units (no dataset 164): they are taken as SI".into());
         }
         Ok((factor, assumed))
+    }
+
+    /// A message if the units of axes with these names contradict the file's own.
+    fn contradiction(&self, labels: &AxisUnits, named: [&str; 2]) -> Result<Option<String>> {
+        if self.known.label.is_some() {
+            let expected = "no unit given beside it";
+            return Err(Error::value(&self.name, "its own units, in a dataset 164", expected));
+        }
+        let own_units = self.universal.converted_from.clone().unwrap_or_else(Units::si);
+        let differ =
+            |label: Option<f64>, own: f64| label.is_some_and(|l| (l * own - 1.0).abs() > 1e-3);
+        let [own, below] = named;
+        let contradicts = differ(labels.answer, own_units.length)
+            || differ(labels.force, own_units.force)
+            || labels.answer.is_none() && !plain(own).is_empty()
+            || labels.torn;
+        Ok(contradicts.then(|| {
+            format!(
+                "the axes are named {own} and {below}, which contradicts the units in dataset 164; those of \
+                 dataset 164 are taken"
+            )
+        }))
     }
 
     /// Positions of these degrees of freedom along the bat's axis, the direction in which the file's nodes are farthest
@@ -200,11 +199,8 @@ fn nodes(
     file: &str,
     places: Option<&Places>,
 ) -> Result<BTreeMap<i64, Vector>> {
-    let lists = universal.datasets.iter().filter_map(|dataset| match dataset {
-        Dataset::Nodes(nodes) => Some(&nodes.nodes),
-        _ => None,
-    });
-    let nodes: BTreeMap<i64, Vector> = lists.flatten().map(|node| (node.label, node.at)).collect();
+    let nodes: BTreeMap<i64, Vector> =
+        universal.nodes().map(|node| (node.label, node.at)).collect();
     let Some(places) = places else { return Ok(nodes) };
     if nodes.is_empty() {
         return Ok(places.iter().map(|(node, x)| (*node, [*x, 0.0, 0.0])).collect());
@@ -233,14 +229,14 @@ fn turns_back(values: &[(f64, c64)]) -> bool {
 }
 
 /// The factors to SI of the units named by the axes.
-struct Labels {
+struct AxisUnits {
     answer: Option<f64>,
     force: Option<f64>,
     /// Whether the answer's axis has another unit of force than the force's own.
     torn: bool,
 }
 
-impl Labels {
+impl AxisUnits {
     fn of(function: &Function, kind: ResponseKind) -> Self {
         Self::read(&function.axes[1].unit, &function.axes[2].unit, kind)
     }
@@ -365,12 +361,7 @@ fn chosen<'a>(
     file: &str,
     which: Option<usize>,
 ) -> Result<Vec<Numbered<'a>>> {
-    let functions =
-        universal.datasets.iter().enumerate().filter_map(|(k, dataset)| match dataset {
-            Dataset::Function(function) => Some((k, &**function)),
-            _ => None,
-        });
-    let functions: Vec<_> = functions.collect();
+    let functions: Vec<_> = universal.functions().collect();
     let responses = functions.iter().filter(|(_, function)| function.kind == RESPONSE);
     let responses: Vec<Numbered> = (1..).zip(responses).map(|(n, (k, f))| (n, *k, *f)).collect();
     let count = responses.len();
@@ -530,7 +521,7 @@ mod tests {
             (Receptance, "in/lbf", "", 0.0254, POUND_FORCE),
             (Receptance, "mm", "N", 1e-3, 1.0),
         ] {
-            let found = Labels::read(own, below, kind);
+            let found = AxisUnits::read(own, below, kind);
             let near = |a: Option<f64>, b: f64| a.is_some_and(|a| (a / b - 1.0).abs() < 1e-12);
             assert!(near(found.answer, answer), "{own} {below}: {:?}", found.answer);
             assert!(near(found.force, force), "{own} {below}: {:?}", found.force);
@@ -538,7 +529,7 @@ mod tests {
         for (kind, own) in
             [(Accelerance, "V"), (Accelerance, "m/s"), (Mobility, "g"), (Receptance, "EU")]
         {
-            assert_eq!(Labels::read(own, "", kind).answer, None, "{own}");
+            assert_eq!(AxisUnits::read(own, "", kind).answer, None, "{own}");
         }
     }
 }

@@ -13,10 +13,10 @@ use crate::engine::{Error, Result, dot, file};
 use crate::files::measured::direction::{Vector, axis, named, normals, positive};
 use crate::files::measured::{Beside, FEWEST};
 use crate::measured::data::{FrequencyUnit, Measured, MeasuredMode, Otherwise};
-use uff58::{Analysis, Dataset, NodalData, Node, Universal, six_digits};
+use uff58::{Analysis, NodalData, Node, Universal, six_digits};
 
-/// The motion of a node.
-type Motion = [c64; 3];
+/// The motion of a node along x, y and z.
+type Xyz = [c64; 3];
 
 /// Reads measured modes, with the additional facts.
 ///
@@ -49,7 +49,8 @@ fn placed(universal: &Universal, file: &str, beside: &Beside) -> Result<Measured
     let places = beside.places.as_ref();
     let poles = Poles::of(universal, beside.frequency_unit);
     let shapes = shapes(universal, file, &poles)?;
-    let mut nodes = nodes(universal);
+    let mut nodes: BTreeMap<i64, &Node> =
+        universal.nodes().map(|node| (node.label, node)).collect();
     let [moving, still] = told(&shapes);
     let along = stillest(&shapes);
     if places.is_some() && !nodes.is_empty() {
@@ -60,13 +61,11 @@ fn placed(universal: &Universal, file: &str, beside: &Beside) -> Result<Measured
         places.into_iter().flatten().map(|(k, x)| Node::new(*k, along.map(|a| a * x))).collect();
     nodes.extend(given.iter().map(|node| (node.label, node)));
     if let Some(label) = moving.iter().find(|label| !nodes.contains_key(label)) {
-        let (found, expected) = match places {
-            Some(_) => (format!("node {label} in a shape and not among the places"), "its place"),
-            None => (
-                format!("node {label} in a shape and not among the nodes"),
-                "it in a dataset 15 or 2411, or its place by --places",
-            ),
+        let (list, expected) = match places {
+            Some(_) => ("places", "its place"),
+            None => ("nodes", "it in a dataset 15 or 2411, or its place by --places"),
         };
+        let found = format!("node {label} in a shape and not among the {list}");
         return Err(Error::value(file, found, expected));
     }
     let at: Vec<Vector> = moving.iter().map(|label| nodes[label].at).collect();
@@ -80,20 +79,8 @@ fn placed(universal: &Universal, file: &str, beside: &Beside) -> Result<Measured
     let mut assumed = unread(universal);
     assumed.extend(poles.words());
     assumed.push(format!("the bat's axis is {}", named(axis)));
-    if points.len() < moving.len() {
-        let (nodes, points) = (moving.len(), points.len());
-        assumed
-            .push(format!("{nodes} nodes are taken as {points} points, those side by side as one"));
-    }
-    if !still.is_empty() {
-        assumed.push(format!("{} nodes that never move are left out", still.len()));
-    }
-    if moving.iter().any(|label| nodes[label].systems[0] != 0) {
-        assumed.push("the nodes' places are taken as in the file's global system".to_owned());
-    }
-    if moving.iter().any(|label| nodes[label].systems[1] != 0) {
-        assumed.push("motions are taken as along the file's global axes".to_owned());
-    }
+    let systems = moving.iter().map(|label| nodes[label].systems);
+    assumed.extend(taken([moving.len(), points.len(), still.len()], systems));
     let (mut modes, mut directions) = (vec![], vec![]);
     for (k, shape) in shapes.iter().enumerate() {
         let motions = motions(shape.data, &moving);
@@ -120,6 +107,26 @@ fn placed(universal: &Universal, file: &str, beside: &Beside) -> Result<Measured
     Ok(Measured { source: file.to_owned(), modes, along, from_knob, assumed, otherwise })
 }
 
+/// How nodes are taken, by the numbers of those that move, of their points, and of those that never move, and by the
+/// coordinate systems of the first.
+fn taken(
+    [moving, points, still]: [usize; 3],
+    systems: impl Iterator<Item = [i64; 2]> + Clone,
+) -> impl Iterator<Item = String> {
+    let places = "the nodes' places are taken as in the file's global system".to_owned();
+    let motions = "motions are taken as along the file's global axes".to_owned();
+    let [placed, moved] = [0, 1].map(|k| systems.clone().any(|systems| systems[k] != 0));
+    let all = [
+        (points < moving).then(|| {
+            format!("{moving} nodes are taken as {points} points, those side by side as one")
+        }),
+        (still > 0).then(|| format!("{still} nodes that never move are left out")),
+        placed.then_some(places),
+        moved.then_some(motions),
+    ];
+    all.into_iter().flatten()
+}
+
 /// The coordinate axis along which the shapes move least, the first of equal ones: the axis of a bat whose file has no
 /// positions of its nodes.
 fn stillest(shapes: &[FileShape]) -> Vector {
@@ -142,8 +149,7 @@ fn unread(universal: &Universal) -> Vec<String> {
     }
     if let Some(units) = universal.converted_from.as_ref().filter(|units| units.length != 1.0) {
         let unit = six_digits(1.0 / units.length);
-        let named = universal.datasets.iter().any(|dataset| matches!(dataset, Dataset::Units(_)));
-        let so = if named { "as its dataset 164 says" } else { "as was told" };
+        let so = if universal.names_units() { "as its dataset 164 says" } else { "as was told" };
         said.push(format!("the file's unit of length is {unit} m, {so}"));
     }
     said
@@ -259,18 +265,13 @@ impl FileShape<'_> {
 }
 
 fn shapes<'a>(universal: &'a Universal, file: &str, poles: &Poles) -> Result<Vec<FileShape<'a>>> {
-    let data = universal.datasets.iter().filter_map(|dataset| match dataset {
-        Dataset::NodalData(data) => Some(data),
-        _ => None,
-    });
-    let shapes: Vec<FileShape> = data.filter_map(|data| shape(data, poles)).collect();
+    let shapes = universal.nodal_data().filter_map(|data| shape(data, poles));
+    let shapes: Vec<FileShape> = shapes.collect();
     if let Some((found, expected)) = shapes.iter().find_map(FileShape::complaint) {
         return Err(Error::value(file, found, expected));
     }
     if shapes.is_empty() {
-        let functions =
-            universal.datasets.iter().filter(|d| matches!(d, Dataset::Function(_))).count();
-        let (found, expected) = match functions {
+        let (found, expected) = match universal.functions().count() {
             0 => {
                 let unread = skipped(universal);
                 let unread = unread.map_or(String::new(), |list| format!("; {list} not read"));
@@ -306,7 +307,7 @@ struct Poles {
 impl Poles {
     /// As given, or else by the data that contradict: `B = -λA`, and `A = 2iω` for a modal mass of 1, with λ in rad/s.
     fn of(universal: &Universal, told: Option<FrequencyUnit>) -> Self {
-        let poles: Vec<[f64; 4]> = universal.datasets.iter().filter_map(pole).collect();
+        let poles: Vec<[f64; 4]> = universal.nodal_data().filter_map(pole).collect();
         let both = |[_, size, a, b]: &[f64; 4]| *size > 0.0 && *a > 0.0 && *b > 0.0;
         let ratios: Vec<f64> = poles
             .iter()
@@ -322,10 +323,8 @@ impl Poles {
         let by_format = if hertz { FrequencyUnit::Hertz } else { FrequencyUnit::RadPerS };
         let (poles_in, normal) = (told.unwrap_or(by_format), told.unwrap_or(FrequencyUnit::Hertz));
         // One reading for a file, of poles or of frequencies.
-        let others = universal.datasets.iter().any(|dataset| match dataset {
-            Dataset::NodalData(data) => matches!(data.analysis, Analysis::NormalMode { .. }),
-            _ => false,
-        });
+        let normal_mode = |data: &NodalData| matches!(data.analysis, Analysis::NormalMode { .. });
+        let others = universal.nodal_data().any(normal_mode);
         let read_in = if poles.is_empty() { normal } else { poles_in };
         let otherwise = Otherwise { read_in, settled };
         let unsure = told.is_none() && (poles.is_empty() || !others);
@@ -346,8 +345,7 @@ impl Poles {
 }
 
 /// Real part and size of a pole, sizes of Modal A and B.
-fn pole(dataset: &Dataset) -> Option<[f64; 4]> {
-    let Dataset::NodalData(data) = dataset else { return None };
+fn pole(data: &NodalData) -> Option<[f64; 4]> {
     let Analysis::ComplexMode { eigenvalue: [re, im], modal_a, modal_b, .. } = data.analysis else {
         return None;
     };
@@ -373,14 +371,6 @@ fn shape<'a>(data: &'a NodalData, poles: &Poles) -> Option<FileShape<'a>> {
     Some(FileShape { number, frequency, damping_ratio, data })
 }
 
-fn nodes(universal: &Universal) -> BTreeMap<i64, &Node> {
-    let lists = universal.datasets.iter().filter_map(|dataset| match dataset {
-        Dataset::Nodes(nodes) => Some(&nodes.nodes),
-        _ => None,
-    });
-    lists.flatten().map(|node| (node.label, node)).collect()
-}
-
 /// Nodes side by side: where they are along the axis (m), and which they are.
 struct NodeGroup {
     along: f64,
@@ -403,7 +393,7 @@ fn points(at: &[Vector], axis: Vector) -> Vec<NodeGroup> {
 }
 
 /// The motion of these nodes in a shape; a node outside the shape does not move.
-fn motions(data: &NodalData, labels: &[i64]) -> Vec<Motion> {
+fn motions(data: &NodalData, labels: &[i64]) -> Vec<Xyz> {
     let values: BTreeMap<i64, &Vec<uff58::Complex>> =
         data.values.iter().map(|(label, values)| (*label, values)).collect();
     let part = |values: &Vec<uff58::Complex>, k: usize| {
@@ -418,7 +408,7 @@ fn motions(data: &NodalData, labels: &[i64]) -> Vec<Motion> {
 }
 
 /// The mean over the nodes of every point.
-fn averaged(motions: &[Motion], points: &[NodeGroup], of: impl Fn(&Motion) -> c64) -> Vec<c64> {
+fn averaged(motions: &[Xyz], points: &[NodeGroup], of: impl Fn(&Xyz) -> c64) -> Vec<c64> {
     let mean = |point: &NodeGroup| {
         let sum = point.members.iter().fold(c64::new(0.0, 0.0), |sum, k| sum + of(&motions[*k]));
         sum / point.members.len() as f64
@@ -428,9 +418,9 @@ fn averaged(motions: &[Motion], points: &[NodeGroup], of: impl Fn(&Motion) -> c6
 
 /// The deflection in the direction normal to the axis in which a mode moves most: its values, the
 /// direction in words, and its share of all the motion.
-fn deflection(motions: &[Motion], points: &[NodeGroup], axis: Vector) -> (Vec<c64>, String, f64) {
+fn deflection(motions: &[Xyz], points: &[NodeGroup], axis: Vector) -> (Vec<c64>, String, f64) {
     let [one, other] = normals(axis);
-    let along = |motion: &Motion, direction: Vector| {
+    let along = |motion: &Xyz, direction: Vector| {
         (0..3).fold(c64::new(0.0, 0.0), |sum, k| sum + motion[k] * direction[k])
     };
     let common = |a: Vector, b: Vector| -> f64 {
