@@ -472,4 +472,22 @@ fn loss_factors_that_contradict_each_other_are_a_mismatch() {
         let shown = sweetspot::base::number::significant(chi2, 3);
         assert!(told.contains(&format!("chi2 {shown} of 3 data")), "{shown}: {told}");
     }
+
+/// A property that is held is exact: its interval is its value, and nothing varies with it.
+#[test]
+fn a_held_property_has_no_interval() {
+    let folder = Folder::new("held");
+    folder.write(
+        "readings.json",
+        r#"{ "format": "sweetspot-readings/1", "lines": [{ "hz": 174.5 }] }"#,
+    );
+    let found = folder.json(&["calibrate", "r161", "readings.json", "--hold", "E", "--json", "-"]);
+    let modulus = &found["parameters"][0];
+    assert_eq!(modulus["verdict"], "held");
+    let value = modulus["value"].as_f64().unwrap();
+    for end in modulus["interval95"].as_array().unwrap() {
+        assert!((end.as_f64().unwrap() / value - 1.0).abs() < 1e-12, "{modulus}");
+    }
+    let rows = found["covariance"].as_array().unwrap();
+    assert!(rows.iter().all(|row| row[0] == 0.0) && rows[1][1].as_f64().unwrap() > 0.0, "{rows:?}");
 }

@@ -119,7 +119,7 @@ fn verdict(one: &Estimated) -> String {
             format!("only with {with}")
         }
         Verdict::NotDetermined => "do not say it".to_owned(),
-        Verdict::Held => "held".to_owned(),
+        Verdict::Held => "held as exact".to_owned(),
     }
 }
 
@@ -148,7 +148,7 @@ pub fn words(found: &Calibration) -> Vec<String> {
             short(other)
         ));
     }
-    let silent = |one: &&Estimated| matches!(one.verdict, Verdict::NotDetermined | Verdict::Held);
+    let silent = |one: &&Estimated| one.verdict == Verdict::NotDetermined;
     let name = |one: &Estimated| match one.property {
         // G is proportional to E: their ratio is estimated.
         Property::ShearModulus => "G over E",

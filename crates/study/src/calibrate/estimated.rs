@@ -81,12 +81,11 @@ impl Estimated {
     }
 }
 
-/// The parameters and their uncertainties; the covariance of all unknowns, in which those that were held have the prior
-/// one.
+/// The parameters and their uncertainties; the covariance of all unknowns, 0 for those that were held.
 pub(super) fn estimated(search: &Search, fit: &Fit) -> Result<(Vec<Estimated>, Vec<Vec<f64>>)> {
     let known = Uncertainties::of(search, fit)?;
     let all = known.properties.iter().map(|property| known.estimated(*property)).collect();
-    Ok((all, known.open))
+    Ok((all, known.left))
 }
 
 /// The uncertainties of the unknowns, before and after.
@@ -96,11 +95,9 @@ struct Uncertainties<'a> {
     properties: &'static [Property],
     free: Vec<usize>,
     posterior: Posterior,
-    /// Prior covariance, and that of the fitted unknowns after the readings.
+    /// Prior covariance, and that after the readings: 0 for the held unknowns, which are taken as exact.
     before: Vec<Vec<f64>>,
     left: Vec<Vec<f64>>,
-    /// The latter, with the prior covariance for the held unknowns.
-    open: Vec<Vec<f64>>,
 }
 
 impl<'a> Uncertainties<'a> {
@@ -109,12 +106,7 @@ impl<'a> Uncertainties<'a> {
         let posterior = Posterior::of(search, &data, fit)?;
         let (before, left) = (search.prior(), posterior.covariance());
         let (properties, free) = (Property::of(search.wood.regions()), search.free());
-        let open = left.clone();
-        let mut known = Self { search, fit, properties, free, posterior, before, left, open };
-        for one in properties {
-            known.open[*one as usize][*one as usize] += known.of_its_own(*one);
-        }
-        Ok(known)
+        Ok(Self { search, fit, properties, free, posterior, before, left })
     }
 
     fn is_free(&self, property: Property) -> bool {
@@ -124,15 +116,6 @@ impl<'a> Uncertainties<'a> {
     /// Its logarithm as a sum of the unknowns.
     fn parts(&self, property: Property) -> Vec<f64> {
         property.parts(self.before.len())
-    }
-
-    /// The prior part of a held property: the readings do not change it.
-    fn of_its_own(&self, property: Property) -> f64 {
-        if self.is_free(property) {
-            return 0.0;
-        }
-        let (own, parts) = (property as usize, self.parts(property));
-        self.before[own][own].min(form(&self.before, &parts, &parts))
     }
 
     /// The file's value and the fitted one.
@@ -166,8 +149,8 @@ impl<'a> Uncertainties<'a> {
         let parts = self.parts(property);
         let correlation = |other: &Property| {
             let theirs = self.parts(*other);
-            let sizes = form(&self.open, &theirs, &theirs) * form(&self.open, &parts, &parts);
-            let r = form(&self.open, &parts, &theirs) / sizes.sqrt();
+            let sizes = form(&self.left, &theirs, &theirs) * form(&self.left, &parts, &parts);
+            let r = form(&self.left, &parts, &theirs) / sizes.sqrt();
             (sizes > 0.0).then_some((*other, r))
         };
         let others = self.properties.iter().filter(|other| **other != property);
@@ -178,9 +161,8 @@ impl<'a> Uncertainties<'a> {
         let parts = self.parts(property);
         let [centre, value] = self.values(property);
         let known = form(&self.before, &parts, &parts);
-        let deviation = form(&self.open, &parts, &parts).min(known).sqrt();
-        let own = self.of_its_own(property);
-        let end = |share| centre * self.posterior.quantile(&parts, own, share).exp();
+        let deviation = form(&self.left, &parts, &parts).min(known).sqrt();
+        let end = |share| centre * self.posterior.quantile(&parts, share).exp();
         let (learned, correlated) = (self.learned(property), self.correlated(property));
         let together = correlated.is_some_and(|(_, r)| r.abs() > TOGETHER);
         Estimated {

@@ -98,11 +98,11 @@ impl Posterior {
         (0..unknowns).map(|i| (0..unknowns).map(|j| entry(i, j)).collect()).collect()
     }
 
-    /// The value below which a sum of unknowns lies with that probability; `more` is a variance that is added.
-    pub fn quantile(&self, parts: &[f64], more: f64, probability: f64) -> f64 {
+    /// The value below which a sum of unknowns lies with that probability.
+    pub fn quantile(&self, parts: &[f64], probability: f64) -> f64 {
         let mean = |part: &Component| part.mean.iter().zip(parts).map(|(m, p)| m * p).sum::<f64>();
         let normal = |part: &Component| {
-            let variance = form(&part.covariance, parts, parts) + more;
+            let variance = form(&part.covariance, parts, parts);
             (part.weight, mean(part), variance.max(0.0).sqrt())
         };
         let all: Vec<(f64, f64, f64)> = self.0.iter().map(normal).collect();
