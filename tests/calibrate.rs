@@ -472,6 +472,7 @@ fn loss_factors_that_contradict_each_other_are_a_mismatch() {
         let shown = sweetspot::base::number::significant(chi2, 3);
         assert!(told.contains(&format!("chi2 {shown} of 3 data")), "{shown}: {told}");
     }
+}
 
 /// A property that is held is exact: its interval is its value, and nothing varies with it.
 #[test]
