@@ -447,6 +447,33 @@ fn readings_that_fit_perfectly_agree() {
     assert_eq!(found["fits"], true, "{found}");
 }
 
+/// The sum of squares in the words is the one in the document; loss factors of one mode that no counting of cycles
+/// explains are a mismatch.
+#[test]
+fn loss_factors_that_contradict_each_other_are_a_mismatch() {
+    let folder = Folder::new("calibrate-loss");
+    for (other, fits) in [(0.015, true), (0.1, false)] {
+        let readings = format!(
+            r#"{{ "format": "sweetspot-readings/1", "mass": "0.869 kg",
+                "lines": [{{ "hz": 174.5, "mode": 1, "loss_factor": 0.01 }}, {{ "hz": 581, "mode": 2 }}],
+                "ring_down": [{{ "mode": 1, "loss_factor": {other} }}] }}"#
+        );
+        folder.write("readings.json", readings);
+        let output = folder.run(&["calibrate", "r161", "readings.json", "--json", "o.json"]);
+        let (told, code) = (String::from_utf8(output.stdout).unwrap(), output.status.code());
+        assert_eq!(code, Some(i32::from(!fits)), "{told}");
+        assert_eq!(
+            told.contains("loss factors of mode 1, 0.01 to 0.1, contradict"),
+            !fits,
+            "{told}"
+        );
+        let document: serde_json::Value = serde_json::from_str(&folder.read("o.json")).unwrap();
+        let chi2 = document["chi2"].as_f64().unwrap();
+        let shown = sweetspot::base::number::significant(chi2, 3);
+        assert!(told.contains(&format!("chi2 {shown} of 3 data")), "{shown}: {told}");
+    }
+}
+
 /// A property that is held is exact: its interval is its value, and nothing varies with it.
 #[test]
 fn a_held_property_has_no_interval() {

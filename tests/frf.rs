@@ -625,3 +625,20 @@ fn shapes_without_geometry_or_units_are_placed_by_what_is_told() {
         assert!(output.status.code() == Some(2) && error.contains(told), "{error}");
     }
 }
+
+/// Where a pin or a clamp keeps the bat at rest, the response is 0 and not its round-off.
+#[test]
+fn the_response_at_a_support_is_zero() {
+    for (support, at, to) in [("pinned", 0.2, 0.2), ("pinned", 0.2, 0.6), ("clamped", 0.1, 0.6)] {
+        let supports = format!(r#"{{ "supports": [{{ "x": 0.2, "type": "{support}" }}], "#);
+        let text = LOSSY.replacen('{', &supports, 1);
+        let bat = Bat::from_text("bat.json", &text, "".as_ref()).unwrap();
+        let mut frf = Frf::new(&bat, &Request::default(), at, to).unwrap();
+        for Sample { receptance, truncation, .. } in frf.receptances(&[50.0, 500.0]).unwrap() {
+            assert!(receptance.norm() == 0.0 && truncation == 0.0, "{support} {at} {to}");
+        }
+        assert!(frf.static_compliance() == 0.0);
+        let mut beside = Frf::new(&bat, &Request::default(), 0.3, 0.6).unwrap();
+        assert!(beside.receptances(&[50.0]).unwrap()[0].receptance.norm() > 1e-8);
+    }
+}

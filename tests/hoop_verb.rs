@@ -107,7 +107,7 @@ fn walls_of_other_thickness_give_way_as_another_program_found() {
     let bat = mesh("bbcor_made_up");
     let accuracy = Accuracy { theory: Theory::Timoshenko, ..Accuracy::default() };
     let test = || BarrelTest::of(&bat, Ball::baseball(), accuracy);
-    let barrel = Barrel::of(&bat, test()).unwrap();
+    let barrel = Barrel::of(&bat, test(), None).unwrap();
     for (wall, frequency, stiffness, stiff, with) in [
         (2.5e-3, 1704.0, 10.6, 0.498, 0.641),
         (3.0e-3, 2037.0, 17.2, 0.499, 0.609),
@@ -115,7 +115,7 @@ fn walls_of_other_thickness_give_way_as_another_program_found() {
         (5.0e-3, 3485.0, 67.9, 0.501, 0.530),
     ] {
         let other = with_wall(&bat, &barrel, wall / 3e-3).unwrap();
-        let found = BarrelStruck::of(&other, &test()).unwrap();
+        let found = BarrelStruck::of(&other, &test(), None).unwrap();
         let [pressed, rebound] = (found.wall.as_ref()).zip(found.rebound.as_ref()).map_or_else(
             || panic!("{wall}"),
             |(pressed, rebound)| [pressed.stiffness_n_m * 1e-6, rebound.stiff],
@@ -140,7 +140,7 @@ fn another_wall_grows_along_the_taper_and_leaves_the_surface() {
     for name in ["bbcor_made_up", "softball_made_up_open"] {
         let bat = mesh(name);
         let test = BarrelTest::of(&bat, Ball::baseball(), Accuracy::plain());
-        let barrel = Barrel::of(&bat, test).unwrap();
+        let barrel = Barrel::of(&bat, test, None).unwrap();
         let from = barrel.hoop().from();
         let whole = barrel.struck.wall.as_ref().unwrap().thickness_m;
         let borders = bat.profile().borders();
@@ -480,4 +480,24 @@ fn a_tube_that_tapers_to_its_tip_rings_whole() {
     let found = folder.json(&["hoop", "tube.json", "--tol", "1e-3", "--json", "-"]);
     assert_eq!(found["tolerance_met"], true);
     assert_eq!(found["model"]["from_m"].as_f64(), Some(0.0));
+}
+
+/// Aluminium, whose Poisson's ratio follows from E and G.
+#[test]
+fn a_wall_of_known_poisson_ratio_has_no_note_on_it() {
+    let text = Folder::new("hoop-poisson").text(&["hoop", "two_piece", "--full"]);
+    assert!(text.contains("Hoop modes of Two-piece bat") && !text.contains("Poisson"), "{text}");
+}
+
+/// The ball touches the bat again; the time of the whole contact is in the words.
+#[test]
+fn the_ball_leaves_after_its_last_touch() {
+    let folder = Folder::new("ring-last-touch");
+    let ring = ["ring", "r161", "--hit", "0.45"];
+    let document = folder.json(&[&ring[..], &["--json", "-"]].concat());
+    let [last, touching] = [&document["contact_s"], &document["impact"]["contact_time_s"]]
+        .map(|s| s.as_f64().unwrap());
+    assert!((last - 4.57e-3).abs() < 5e-5 && last > 1.5 * touching, "{last} {touching}");
+    let text = folder.text(&ring);
+    assert!(text.contains(&format!("after {:.2} ms", 1e3 * last)), "{text}");
 }

@@ -730,3 +730,39 @@ fn a_hit_without_modes_is_the_rigid_one() {
     let (none, rigid) = (speed(&["-n", "0"]), speed(&["--model", "rigid"]));
     assert!((none / rigid - 1.0).abs() < 1e-12, "{none} {rigid}");
 }
+
+/// Whether a bat has a bore is one answer, and a doubt is told once.
+#[test]
+fn words_of_different_verbs_agree() {
+    let folder = Folder::new("words-agree");
+    let said = |args: &[&str]| {
+        let output = folder.run(args);
+        let both = [output.stdout, output.stderr].map(|text| String::from_utf8(text).unwrap());
+        both.concat().split_whitespace().collect::<Vec<_>>().join(" ")
+    };
+    // A bore filled with cork.
+    assert!(!said(&["advise", "corked", "--full"]).contains("no empty bore"));
+    assert!(said(&["modes", "corked", "--full"]).contains("in wood not modelled"));
+    assert!(said(&["hoop", "corked"]).contains("a hollow bat of wood"));
+    // A tube with a plug.
+    assert!(!said(&["lathe", "bbcor_made_up"]).contains("drilled"));
+    for verb in ["analyze", "hit"] {
+        let told = said(&[verb, "northwestern_aluminium"]);
+        assert_eq!(told.matches("is no material of bats").count(), 1, "{verb}: {told}");
+    }
+    let grip = r#", "grip": { "from": "0 in", "to": "6 in", "stiffness": 4e8, "damping": 200 }"#;
+    for (held, said_free) in [("", true), (grip, false)] {
+        let tube = format!(
+            r#"{{ "format": "sweetspot-bat/1", "material": "aluminium-7075", "profile": {{ "unit": "in",
+                "x": [0, 6, 20, 27, 33], "diameter": [1.0, 0.9, 1.6, 2.4, 2.5],
+                "wall_thickness": [0.1, 0.1, 0.1, 0.1, 0.1] }}{held} }}"#
+        );
+        folder.write("tube.json", tube);
+        let told = said(&["analyze", "tube.json"]);
+        assert!(told.contains("figures are rough, ") && told.contains("free BBCOR") == said_free);
+    }
+    let still = said(&["hit", "r161", "--swing-speed", "0", "--pitch", "0"]);
+    assert!(still.contains("do not approach each other") && !still.contains("0.0e0"), "{still}");
+    let aimed = said(&["aim", "r161", "--target", "swing weight -1 %", "--rules", "ncaa"]);
+    assert!(aimed.contains("BBCOR at most") && !aimed.contains("bbcor"), "{aimed}");
+}

@@ -161,7 +161,7 @@ fn hoop_modes_and_walls_are_whole_in_every_form() {
     for name in ["bbcor_made_up", "softball_made_up_open", "northwestern_aluminium"] {
         let bat = bat(name);
         let test = BarrelTest::of(&bat, Ball::baseball(), Accuracy::plain());
-        let barrel = Barrel::of(&bat, test).unwrap();
+        let barrel = Barrel::of(&bat, test, None).unwrap();
         let tried = wall_sweep(&bat, &barrel, &|_| {});
         assert!(tried.len() > 3, "{name}");
         for (us, paper) in

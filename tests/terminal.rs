@@ -657,3 +657,24 @@ fn materials_are_the_same_in_every_unit_and_as_json() {
         }
     }
 }
+
+/// Words of SI units after a number, or at the end of a heading.
+#[test]
+fn us_units_alone_leave_no_stiffness_force_or_acceleration_in_si() {
+    const SI: [&str; 9] = ["MN/m", "N/m", "m/s", "m/s²", "kN", "m/N", "mm", "cm", "kg"];
+    let folder = Folder::new("us-alone");
+    for args in [
+        &["hoop", "bbcor_made_up", "--full"][..],
+        &["hit", "bbcor_made_up", "--at", "26 in", "--full"],
+        &["hit", "r161", "--at", "26 in", "--wall-stiffness", "7e6", "--wall-mass", "0.1"],
+        &["ring", "r161", "--hit", "26 in", "--full"],
+        &["ring", "bbcor_made_up", "--hit", "26 in", "--damping", "assumed"],
+        &["frf", "r161", "--at", "20 in"],
+    ] {
+        let text = folder.text(&[args, &["--units", "us", "--quiet"]].concat());
+        let words = text.split(|c: char| c.is_whitespace() || "();:,".contains(c));
+        let words: Vec<&str> = words.filter(|word| !word.is_empty()).collect();
+        let left: Vec<&&str> = words.iter().filter(|word| SI.contains(*word)).collect();
+        assert!(left.is_empty(), "{args:?}: {left:?} in {text}");
+    }
+}

@@ -200,7 +200,7 @@ fn check_turned(bat: &Bat, on: Blended) -> Result<()> {
 /// Refuses to drill where the bore is filled.
 fn check_unfilled(bat: &Bat, stretch: [f64; 2]) -> Result<()> {
     match bat.layups_on(stretch).any(|layup| layup.core.is_some()) {
-        true => Err(Error::value("", "a stretch that is drilled and filled", "wood to be drilled")),
+        true => Err(Error::value("", "a bore that is filled there", "a stretch to be drilled")),
         false => Ok(()),
     }
 }

@@ -162,6 +162,15 @@ impl Fixtures {
             || self.grip.is_some_and(|grip| grip.stiffness > 0.0)
     }
 
+    /// Whether supports keep the bat at rest at one place (m) if it is moved at the other: one is there, or a clamp
+    /// stands between them.
+    pub fn keeps_still(&self, [a, b]: [f64; 2]) -> bool {
+        self.supports.iter().any(|Support { x, kind }| {
+            let [to_a, to_b] = [x - a, x - b];
+            to_a.abs().min(to_b.abs()) <= SAME_PLACE || *kind == Held::Clamped && to_a * to_b < 0.0
+        })
+    }
+
     /// These fixtures without springs to ground and hands, which act only after the hit is over.
     pub fn without_springs(&self) -> Self {
         let mut bare = self.clone();

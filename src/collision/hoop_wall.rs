@@ -36,7 +36,7 @@ pub struct HarmonicEnergy {
 }
 
 /// A hole that begins this close to the tip (m) is a cup, and the barrel is solid.
-pub const CUP: f64 = 0.04;
+const CUP: f64 = 0.04;
 
 /// The wall of a hollow barrel under balls of one size.
 #[derive(Debug, Clone)]

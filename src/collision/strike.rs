@@ -95,6 +95,7 @@ impl Hitter<'_> {
             velocity += energy * gain;
             acceleration += energy * gain * omega * omega;
         }
+        let moves = f64::from(!self.struck.bat.fixtures().keeps_still([x, self.scene.hands]));
         let exit = |impulse: f64| impulse / self.scene.ball.mass_kg - self.scene.ball_speed;
         Glance {
             x,
@@ -103,7 +104,7 @@ impl Hitter<'_> {
             late,
             later: late || again,
             vibration: (self.modes_used() > 0).then(|| in_modes.iter().sum()),
-            hands: [velocity.sqrt(), acceleration.sqrt()],
+            hands: [moves * velocity.sqrt(), moves * acceleration.sqrt()],
         }
     }
 

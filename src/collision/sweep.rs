@@ -53,6 +53,17 @@ impl Sweep {
         self
     }
 
+    /// Strikes the bat of this sweep in another way, with its modes as long as they are accurate enough.
+    ///
+    /// # Errors
+    ///
+    /// As [`sweep`].
+    pub fn again(&self, bat: &Bat, trial: Trial, to: &Accuracy, places: &[f64]) -> Result<Self> {
+        let accuracy = &Accuracy { theory: self.solution.theory, ..*to };
+        let (first, solution) = (Round::first(bat, trial, accuracy), self.solution.clone());
+        first.go_on((bat, trial), accuracy, places, solution, &nobody)
+    }
+
     /// Whether every hit is resolved and its exit speed within the tolerance by its own estimate.
     pub fn met(&self) -> bool {
         self.end == RoundsEnd::Met

@@ -75,6 +75,7 @@ pub fn tuned(mut bat: Bat, theory: Theory, tolerance: f64) -> Result<Bat> {
     }
     let found = format!("{tapped} Hz; the nearest one that was reached is {nearest:.6} Hz");
     let expected = match bat.fixtures().absorbers.is_empty() {
+        true if bat.fixtures().holding() => "that of the bat in firm hands, below a loose tap's",
         true => "a first bending frequency that a stiffer or softer bat of that kind can have",
         false => "a first bending frequency with the absorber, which takes one near its own away",
     };

@@ -73,7 +73,7 @@ impl ResponseKind {
 }
 
 /// The receptance at one frequency.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Sample {
     /// Frequency (Hz).
@@ -99,6 +99,8 @@ pub struct Frf {
     /// The forced and the watched point.
     places: [UnitForce; 2],
     points: [f64; 2],
+    /// Whether the response is 0, because a support keeps the watched point at rest.
+    pub still: bool,
     /// Damping ratios of the modes in place of the bat's; empty if the bat's apply.
     ratios: Vec<f64>,
 }
@@ -139,7 +141,8 @@ impl Frf {
             reduced.place(*x);
         });
         let places = [at, to].map(|x| reduced.place(x));
-        Ok(Self { solution, reduced, places, points: [at, to], ratios: vec![] })
+        let (points, still) = ([at, to], bat.fixtures().keeps_still([at, to]));
+        Ok(Self { solution, reduced, places, points, still, ratios: vec![] })
     }
 
     /// The response with measured damping ratios of its modes in place of the materials' loss factors; a mode without
@@ -163,7 +166,7 @@ impl Frf {
     /// inertia.
     pub fn static_compliance(&self) -> f64 {
         let [at, to] = self.points.map(|x| self.reduced.flexible.row(x));
-        dot(&at, &to) / self.reduced.flexible.energy_unit
+        if self.still { 0.0 } else { dot(&at, &to) / self.reduced.flexible.energy_unit }
     }
 
     /// The receptance (m/N) without the free rigid motions, at 0 Hz or more, with the present strains: those of the
@@ -213,6 +216,9 @@ impl Frf {
     /// The peaks between the ends of a rising grid of frequencies (Hz), in the unit of that kind, with the present
     /// strains: [`Self::receptances`] adds those that are missing.
     pub fn peaks(&self, kind: ResponseKind, grid: &[f64]) -> Vec<Peak> {
+        if self.still {
+            return vec![];
+        }
         let driven = self.reduced.driven();
         let size = |f: f64| (self.receptance(&driven, f) * kind.of(f)).norm();
         peaks::of(grid, &self.modes(), &size)
@@ -266,6 +272,9 @@ impl Frf {
         }
         let driven = self.reduced.driven();
         let sample = |f: &f64| {
+            if self.still {
+                return Sample { frequency: *f, ..Sample::default() };
+            }
             let answers = self.answers(&driven, *f);
             Sample {
                 frequency: *f,

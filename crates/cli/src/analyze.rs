@@ -115,7 +115,7 @@ pub fn run(args: &Args) -> Result<Done> {
     }
     apart(&[("--json", &args.output.json), ("--report", &args.report)])?;
     args.solve.refuse_budget("analyze")?;
-    let (bat, text) = args.bat.read_with_text(&args.output)?;
+    let (bat, text) = args.bat.read_with_text(&args.output, true)?;
     for off in bat.balance_off().into_iter().chain(bat.swing_weight_off()) {
         args.output.warn(&format!("note: {off}"));
     }
@@ -324,7 +324,7 @@ fn everything(analysis: &Analysis, output: &OutputArgs) -> String {
         hit_text::curve(&hits.impacts, units),
         terminal::parts(&spot),
         terminal::parts(&[Part::Table(tables::figures(figures, units))]),
-        aftermath::strengths(&analysis.strength, units),
+        aftermath::strengths(bat, &analysis.strength, units),
         barrel.collect::<String>(),
     )
 }

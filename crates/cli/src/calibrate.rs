@@ -153,7 +153,7 @@ fn relabelled(args: &Args, found: &Calibration) -> Option<String> {
 
 pub fn run(args: &Args) -> Result<Done> {
     args.said.apart(&[("--out", &args.out), ("--readings", &args.readings)])?;
-    let (bat, text) = read_with_text(&args.bat, &EditArgs::default(), args.said.quiet)?;
+    let (bat, text) = read_with_text(&args.bat, &EditArgs::default(), [args.said.quiet, false])?;
     let Some(told) = readings(args, &bat)? else { return Ok(Done::new(String::new(), 0)) };
     let MeasuredArgs { mut readings, name, person } = told;
     told_again(&mut readings.lines, &args.mode)?;

@@ -17,7 +17,7 @@ use sweetspot_report::parts::wrapped;
 use crate::done::NOT_REACHED;
 use crate::edits::EditArgs;
 use crate::help;
-use crate::output::{FullArgs, warn};
+use crate::output::{FullArgs, JsonArgs, warn};
 use crate::value::{TOP_FREQUENCY, TheoryChoice, budget, solver, theory, tolerance};
 
 /// The end of a verb's help: its example commands, the notation of values, and the built-in bats.
@@ -97,9 +97,10 @@ impl BatArgs {
         read(&self.bat, &self.edits, output.quiet)
     }
 
-    /// Reads the bat, passes its warnings on, and returns the text of its file too.
-    pub fn read_with_text(&self, output: &FullArgs) -> Result<(Bat, String)> {
-        read_with_text(&self.bat, &self.edits, output.quiet)
+    /// Reads the bat, passes on the warnings that the verb's screen does not tell, and returns the text of its file too.
+    pub fn read_with_text(&self, output: &JsonArgs, screen: bool) -> Result<(Bat, String)> {
+        let screen = screen && output.json.as_deref() != Some(Path::new("-"));
+        read_with_text(&self.bat, &self.edits, [output.quiet, screen])
     }
 
     /// Finds the modes of a bat that was read.
@@ -268,12 +269,16 @@ impl SolveArgs {
 
 /// Reads a bat, edits it and passes its warnings on.
 pub fn read(path: &Path, edits: &EditArgs, quiet: bool) -> Result<Bat> {
-    read_with_text(path, edits, quiet).map(|(bat, _)| bat)
+    read_with_text(path, edits, [quiet, false]).map(|(bat, _)| bat)
 }
 
 /// Reads a bat, edits it and reports its warnings; also returns the text of its file. A name without an ending is that
-/// of a built-in bat, unless there is such a file.
-pub fn read_with_text(path: &Path, edits: &EditArgs, quiet: bool) -> Result<(Bat, String)> {
+/// of a built-in bat, unless there is such a file. A `screen` tells a doubtful density itself.
+pub fn read_with_text(
+    path: &Path,
+    edits: &EditArgs,
+    [quiet, screen]: [bool; 2],
+) -> Result<(Bat, String)> {
     let Named { bat, text, outside } = match built_in::named(path)? {
         Some((name, text)) => {
             let bat = Bat::from_text(name, text, Path::new(""))?;
@@ -288,7 +293,9 @@ pub fn read_with_text(path: &Path, edits: &EditArgs, quiet: bool) -> Result<(Bat
         let told = "damping assumed: a metal without a loss factor has the one published of aluminium (sweetspot materials)";
         warn(&format!("note: {file}: {told}"), quiet);
     }
-    bat.warnings().iter().for_each(|w| warn(&format!("warning: {file}: {w}"), quiet));
+    let told = bat.density_off().filter(|_| screen);
+    let warnings = bat.warnings().into_iter().filter(|warning| Some(warning) != told.as_ref());
+    warnings.for_each(|warning| warn(&format!("warning: {file}: {warning}"), quiet));
     Ok((bat, text))
 }
 

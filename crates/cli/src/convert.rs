@@ -142,7 +142,7 @@ fn modes(path: &Path) -> Result<Modes> {
 fn of_bat(path: &Path) -> Result<Modes> {
     const MODES: usize = 10;
     const POINTS: usize = 101;
-    let (bat, _) = common::read_with_text(path, &EditArgs::default(), false)?;
+    let (bat, _) = common::read_with_text(path, &EditArgs::default(), [false, false])?;
     let request = Request { modes: MODES, tolerance: 1e-4, ..Request::default() };
     let Prepared { bat, request, warning } =
         common::prepare(bat, TheoryChoice(None), request, false)?;

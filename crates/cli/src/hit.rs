@@ -95,7 +95,7 @@ impl PlaceArgs {
 
 pub fn run(args: &Args) -> Result<Done> {
     args.output.apart(&[])?;
-    let bat = args.bat.read(&args.output)?;
+    let (bat, _) = args.bat.read_with_text(&args.output, args.output.csv.csv.is_none())?;
     let (setup, model) = args.scene.setup()?;
     args.solve.refuse_budget("hit")?;
     let prepared = args.bat.prepare(bat, args.bat.count(), &args.solve, &args.output)?;

@@ -94,7 +94,7 @@ pub fn run(args: &Args) -> Result<Done> {
     let request = Request { tolerance: args.tol, ..Request::default() };
     let Prepared { bat, request, warning } =
         prepare(bat, TheoryChoice(None), request, args.output.quiet)?;
-    let barrel = Barrel::of(&bat, test(args, &bat, &request)?)?;
+    let barrel = Barrel::of(&bat, test(args, &bat, &request)?, None)?;
     let tried = match args.wall_sweep {
         true => thicknesses(&bat, &barrel, &|share| progress.say(share, "other walls")),
         false => vec![],

@@ -221,7 +221,7 @@ pub fn run(args: &Args) -> Result<Done> {
     let simulated = match &args.virtual_test.simulate {
         None => None,
         Some(bat) => {
-            let bat = read_with_text(bat, &EditArgs::default(), args.said.quiet)?.0;
+            let bat = read_with_text(bat, &EditArgs::default(), [args.said.quiet, false])?.0;
             let wanted = args.virtual_test.test(args);
             test.accelerometer = Some(wanted.accelerometer).filter(|mass| *mass > 0.0);
             Some((wanted.of(&bat)?, bat))

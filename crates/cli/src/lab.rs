@@ -89,7 +89,7 @@ pub fn run(args: &Args) -> Result<Done> {
 
 /// The text of a self-contained bat file: as it is, or with the columns of the table that it names.
 fn text(path: &Path, quiet: bool) -> Result<String> {
-    let (bat, text) = read_with_text(path, &EditArgs::default(), quiet)?;
+    let (bat, text) = read_with_text(path, &EditArgs::default(), [quiet, false])?;
     let names_a_table = serde_json::from_str::<serde_json::Value>(&text)
         .is_ok_and(|document| document["profile"]["csv"].is_string());
     Ok(if names_a_table { alone(&bat) } else { text })

@@ -101,7 +101,7 @@ fn part(args: &Args) -> Result<Part> {
 
 pub fn run(args: &Args) -> Result<Done> {
     args.said.apart(&[("--out", &args.out), ("--readings", &args.readings)])?;
-    let (bat, text) = read_with_text(&args.bat, &EditArgs::default(), args.said.quiet)?;
+    let (bat, text) = read_with_text(&args.bat, &EditArgs::default(), [args.said.quiet, false])?;
     let part = part(args)?;
     let recordings = args.recordings.iter().map(|path| read(path, part));
     let recordings = recordings.collect::<Result<Vec<_>>>()?;

@@ -126,7 +126,8 @@ impl Analysis {
         tell(0.9, "what the model needs");
         let mut failed = vec![];
         let advice = found(advice(&bat, task.hits.tolerance), "what the model needs", &mut failed);
-        let barrel = found(barrel(&bat, &task, accuracy), "how the barrel rings", &mut failed);
+        let barrel = barrel(&bat, &task, accuracy, &hits);
+        let barrel = found(barrel, "how the barrel rings", &mut failed);
         Ok(Self {
             bat,
             solution,
@@ -163,13 +164,13 @@ fn found<T>(of: Option<Result<T>>, what: &str, failed: &mut Vec<String>) -> Opti
 }
 
 /// The barrel of a hollow bat under the ball of the scene, fired as in laboratories; None without a hollow barrel.
-fn barrel(bat: &Bat, task: &Task, accuracy: Accuracy) -> Option<Result<Barrel>> {
+fn barrel(bat: &Bat, task: &Task, to: Accuracy, hits: &Sweep) -> Option<Result<Barrel>> {
     if !rings(bat) || bat.profile().pieces.len() > MOST_PIECES {
         return None;
     }
-    let test = BarrelTest::of(bat, task.scene.ball.clone(), accuracy);
+    let test = BarrelTest::of(bat, task.scene.ball.clone(), to);
     let known = task.scene.hoop.wall().cloned();
-    Some(Barrel::of(bat, BarrelTest { cor: task.scene.cor, known, ..test }))
+    Some(Barrel::of(bat, BarrelTest { cor: task.scene.cor, known, ..test }, Some(hits)))
 }
 
 fn advice(bat: &Bat, tolerance: f64) -> Option<Result<Advice>> {

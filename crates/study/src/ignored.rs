@@ -5,7 +5,8 @@
 pub use sweetspot::modes::shifts::{Shift, shift, shifts, solved_shifts, with_typical_shear};
 
 use crate::engine::{
-    ASSUMED_LOSS, Bat, HoopInHit, Material, Scene, Solution, WhyRigid, barrel_walls, typical_shear,
+    ASSUMED_LOSS, Bat, HoopInHit, Material, Scene, Solution, WhyRigid, barrel_walls, rings,
+    typical_shear,
 };
 
 /// The shifts of the lowest modes by an effect, in words.
@@ -68,12 +69,12 @@ pub fn ignored(bat: &Bat, solution: &Solution) -> Vec<String> {
     if bat.fixtures().grip.is_none() {
         ignored.push("hands (add a \"grip\" to the bat file to model them)".to_owned());
     }
-    ignored.push(match thinnest_wall(bat) {
-        Some(_) => {
-            "hoop modes of this hollow barrel: not a beam's; sweetspot hoop has them".to_owned()
-        }
-        None => "hoop modes of hollow barrels: not a beam's, and not modelled".to_owned(),
-    });
+    let hoops = match (thinnest_wall(bat), rings(bat)) {
+        (Some(_), true) => "this hollow barrel: not a beam's; sweetspot hoop has them",
+        (Some(_), false) => "this hollow barrel: not a beam's, and in wood not modelled",
+        (None, _) => "hollow barrels: not a beam's, and not modelled",
+    };
+    ignored.push(format!("hoop modes of {hoops}"));
     ignored
 }
 

@@ -13,8 +13,8 @@ pub enum Doubt {
     Density(String),
     /// Shear is left out because there is no shear modulus; the sentence says what it would change.
     Shear(String),
-    /// The wall of the barrel is dented deeper than half of its thickness, where its theory ends.
-    Dent(Box<WallFigures>),
+    /// The wall of the barrel is dented deeper than half of its thickness, where its theory ends; whether it is held.
+    Dent(Box<WallFigures>, bool),
     /// The wall of a hollow barrel is taken as rigid, for the reason in the sentence.
     RigidWall(String),
     /// The fastest place lives on a later contact of bat and ball.
@@ -34,7 +34,7 @@ impl Doubt {
         match self {
             Self::Density(_) => "density",
             Self::Shear(_) => "shear",
-            Self::Dent(_) => "dent",
+            Self::Dent(..) => "dent",
             Self::RigidWall(_) => "rigid_wall",
             Self::LaterContact => "later_contact",
             Self::BallLaw => "ball_law",
@@ -63,7 +63,7 @@ impl Verdict {
         let shear = said.filter_map(|text| Some(text.strip_prefix(SHEAR)?.to_owned())).next();
         let shear = shear.map(Doubt::Shear);
         let deep = wall.filter(WallFigures::is_deep);
-        let dent = deep.map(|wall| Doubt::Dent(Box::new(wall)));
+        let dent = deep.map(|wall| Doubt::Dent(Box::new(wall), bat.fixtures().holding()));
         let rigid = rigid_wall(bat, scene).map(Doubt::RigidWall);
         let flagged =
             |flags: &[&str]| best.is_some_and(|best| best.flags.iter().any(|f| flags.contains(f)));
@@ -91,7 +91,7 @@ impl Verdict {
     pub fn ball_is_open(&self) -> bool {
         let open = |doubt: &Doubt| {
             use Doubt::{BallLaw, Dent, LaterContact, RigidWall};
-            matches!(doubt, Dent(_) | RigidWall(_) | LaterContact | BallLaw)
+            matches!(doubt, Dent(..) | RigidWall(_) | LaterContact | BallLaw)
         };
         self.doubts.iter().any(open)
     }

@@ -61,7 +61,7 @@ pub fn run(args: &Args, bat: Bat, x: f64) -> Result<Done> {
         let units = args.output.units(&bat);
         let scene = hit_text::scene(&bat, &scene, model, units);
         let hit = aftermath::impact(&impact, after.end(), units);
-        let text = scene + &hit + &aftermath::text(&report, units, full);
+        let text = scene + &hit + &aftermath::text(&bat, &report, units, full);
         [(1, "motion and strength", text), (0, "", heard.clone())]
     });
     let document = || {

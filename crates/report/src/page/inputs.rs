@@ -3,10 +3,11 @@
 use serde_json::Value;
 
 use crate::analysis::Analysis;
-use crate::parts::Quantity::{Inertia, Length, Mass, Speed};
+use crate::parts::Quantity::{Inertia, Length, Mass, Speed, Stiffness};
 use crate::parts::{Table, Units};
 use crate::report::resolved::resolved;
 use crate::report::tables::NONE;
+use crate::report::wall_text::by;
 use crate::schema;
 use sweetspot::collision::figures::BarrelSpeed;
 use sweetspot::collision::{Model, Scene};
@@ -22,12 +23,11 @@ pub fn scene(analysis: &Analysis, units: Units) -> Table {
     ball(scene, units).into_iter().for_each(&mut line);
     line(("hands feel the hit at", format!("{} from the knob", Length.said(units, scene.hands))));
     if let Some(wall) = scene.wall {
-        line(("the barrel's wall, stiffness", format!("{} N/m", plain(wall.stiffness))));
-        line(("  its mass", format!("{} kg", plain(wall.mass))));
+        line(("the barrel's wall, stiffness", Stiffness.said(units, wall.stiffness)));
+        line(("  its mass", Mass.said(units, wall.mass)));
     }
     if let Some(wall) = scene.hoop.wall() {
-        let modes = format!("by {} hoop modes", wall.modes().len());
-        line(("the barrel's wall gives way", modes));
+        line(("the barrel's wall gives way", by(wall)));
     }
     if analysis.bat.fixtures().holding() {
         line(("the bat is held", "energies are as its hands see them".to_owned()));

@@ -3,7 +3,7 @@
 use sweetspot::base::marks;
 use sweetspot::base::number::{rounded, shortest, signed};
 use sweetspot::base::units::{
-    FOOT_POUND, POUND_FORCE, inches, miles_per_hour, ounce_square_inches, ounces,
+    FOOT_POUND, INCH, POUND_FORCE, inches, miles_per_hour, ounce_square_inches, ounces,
 };
 use sweetspot_study::answers::Answer;
 use sweetspot_study::trade::words::time;
@@ -87,6 +87,10 @@ pub enum Quantity {
     Inertia,
     /// A force (N): kN or lbf.
     Force,
+    /// A stiffness (N/m): MN/m or lbf/in.
+    Stiffness,
+    /// An acceleration (m/s²): m/s² or ft/s².
+    Acceleration,
     /// An impulse (N s): N s or lbf s.
     Impulse,
     /// An energy (J): J or ft·lbf.
@@ -149,6 +153,7 @@ impl Quantity {
         match unit {
             "m" => Some(Self::Length),
             "m/s" => Some(Self::Speed),
+            "m/s²" => Some(Self::Acceleration),
             "kg" => Some(Self::Mass),
             "kg m²" | "kg_m2" => Some(Self::Inertia),
             "Hz" => Some(Self::Frequency),
@@ -172,6 +177,10 @@ impl Quantity {
             (Self::Inertia, true) => of(ounce_square_inches(1.0), 0, "oz in²"),
             (Self::Force, false) => of(1e-3, 2, "kN"),
             (Self::Force, true) => of(1.0 / POUND_FORCE, 0, "lbf"),
+            (Self::Stiffness, false) => of(1e-6, 1, "MN/m"),
+            (Self::Stiffness, true) => of(INCH / POUND_FORCE, 0, "lbf/in"),
+            (Self::Acceleration, false) => of(1.0, 0, "m/s²"),
+            (Self::Acceleration, true) => of(1.0 / (12.0 * INCH), 0, "ft/s²"),
             (Self::Impulse, false) => of(1.0, 3, "N s"),
             (Self::Impulse, true) => of(1.0 / POUND_FORCE, 3, "lbf s"),
             (Self::Energy, false) => of(1.0, 2, "J"),

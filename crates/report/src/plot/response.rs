@@ -63,16 +63,17 @@ pub fn picture(sheet: Sheet, subject: &ResponseCurves, name: &str) -> Option<Pic
     // A number at the very end would leave a narrow picture.
     let x = Axis::new("frequency", [low, low + 1.02 * (high - low)]).counted_in(Unit::HZ);
     let drawn = sizes().filter(|size| *size >= LEAST * most).chain([most]);
-    let size =
-        Axis::logarithmic(kind.name(), drawn).counted_in(Unit { name: unit(kind), per: 1.0 });
+    let (unit, per) = unit(kind, sheet.us);
+    let size = Axis::logarithmic(kind.name(), drawn.map(|size| per * size));
+    let size = size.counted_in(Unit { name: unit, per });
     let turn = Axis::of_a_turn("phase");
     let told = peaks.iter().map(|peak| {
-        let height = peak.height.map_or("without bound".into(), short);
+        let height = peak.height.map_or("without bound".into(), |height| short(per * height));
         format!("mode {} at {} Hz, {height}", peak.mode, short(peak.frequency))
     });
     let told: Vec<String> = told.collect();
     let peaks = if told.is_empty() { "none".to_owned() } else { told.join("; ") };
-    let alt = format!("{title} of {bat}: {facts}. Peaks ({}): {peaks}.", unit(kind));
+    let alt = format!("{title} of {bat}: {facts}. Peaks ({unit}): {peaks}.");
     let chart = Chart::new(name, &title, [bat, &facts], x).keys(&keys);
     let sizes = keys.into_iter().rev().collect();
     let chart = chart.panel(Panel::new(DIAGRAMS[0], size, sizes));

@@ -6,6 +6,7 @@ use crate::plot::{
     ticks_up,
 };
 use crate::schema::ring::{AfterHit, Motion};
+use sweetspot::base::units::INCH;
 use sweetspot::collision::aftermath::{Aftermath, Line, Watched};
 
 /// Heights of a diagram of motion and of a single diagram (px).
@@ -49,7 +50,9 @@ impl AfterBall<'_> {
         let times: Vec<f64> =
             (0..=last).map(|k| self.seen.until * k as f64 / last as f64).collect();
         let instants = self.after.at(&times);
-        let shaken = Unit { name: "km/s²", per: 1e-3 };
+        let (name, per) =
+            if sheet.us { ("kft/s²", 1e-3 / (12.0 * INCH)) } else { ("km/s²", 1e-3) };
+        let shaken = Unit { name, per };
         let kinds = [("displacement", sheet.small()), ("velocity", sheet.speed())];
         let kinds = kinds.into_iter().chain(self.seen.damped.then_some(("acceleration", shaken)));
         let kinds: Vec<(&str, Unit)> = kinds.collect();

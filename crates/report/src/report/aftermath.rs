@@ -64,17 +64,17 @@ impl AfterHit {
 pub fn impact(impact: &hit::Impact, end: f64, units: Units) -> String {
     let Some(outcome) = &impact.outcome else { return String::new() };
     format!(
-        "     at {}\n     the ball leaves at {}, after {:.2} ms, {:.1} kN at most\n",
+        "     at {}\n     the ball leaves at {}, after {:.2} ms, {} at most\n",
         Quantity::Length.said(units, impact.x),
         Quantity::Speed.said(units, outcome.exit_speed),
         1e3 * end,
-        1e-3 * outcome.peak_force.unwrap_or(0.0)
+        Quantity::Force.said(units, outcome.peak_force.unwrap_or(0.0))
     )
 }
 
 /// The tables for the terminal; `full` adds strains along the bat and the spectrum. Where the strength is known, the
 /// largest strain is included in any case.
-pub fn text(report: &AfterHit, units: Units, full: bool) -> String {
+pub fn text(bat: &Bat, report: &AfterHit, units: Units, full: bool) -> String {
     let mut out = format!(
         "\nMotion against the swing, {:.1} ms from the first touch, hands without mass\n",
         1e3 * report.until
@@ -85,11 +85,11 @@ pub fn text(report: &AfterHit, units: Units, full: bool) -> String {
     if !full {
         let strains =
             if report.strength.is_empty() { strains(report, units) } else { String::new() };
-        return (out + &strains + &strength(report, units)).replace("\n\n", "\n");
+        return (out + &strains + &strength(bat, report, units)).replace("\n\n", "\n");
     }
     out += &strains(report, units);
     out += &along(report, units);
-    out += &strength(report, units);
+    out += &strength(bat, report, units);
     if let Some(seen) = report.watched.first() {
         out += &spectrum(seen, report.damped, units);
     }
@@ -109,7 +109,8 @@ fn motion(seen: &Watched, damped: bool, units: Units) -> String {
     let growing = seen.displacement_m.last().is_some_and(|last| last.abs() >= most);
     line("largest displacement", moved, if growing { "and growing".into() } else { a });
     line("largest velocity", Quantity::Speed.said(units, speed), b);
-    let shaken = format!("{acceleration_m_s2:.0} m/s² ({:.0} g)", gravities(acceleration_m_s2));
+    let shaken = Quantity::Acceleration.said(units.first(), acceleration_m_s2);
+    let shaken = format!("{shaken} ({:.0} g)", gravities(acceleration_m_s2));
     let endless = "without end: nothing damps the bat".to_owned();
     let (size, when) = if damped { (shaken, c) } else { (endless, String::new()) };
     line("largest acceleration", size, when);
@@ -173,10 +174,15 @@ fn along(report: &AfterHit, units: Units) -> String {
     out
 }
 
+/// The heading of the load relative to the strength, which is that of clear wood in a bat of wood.
+fn heading(bat: &Bat) -> String {
+    let clear = " (clear wood along the grain; grain, knots, dents not known)";
+    format!("Strength{}\n", bat.material().scatter().map_or("", |_| clear))
+}
+
 /// The load relative to the strength.
-fn strength(report: &AfterHit, units: Units) -> String {
-    let mut out =
-        String::from("\nStrength (clear wood along the grain; grain, knots, dents not known)\n");
+fn strength(bat: &Bat, report: &AfterHit, units: Units) -> String {
+    let mut out = format!("\n{}", heading(bat));
     if report.strength.is_empty() {
         let unknown = "  no material has a known strength: \"strength\" and \"strain_to_failure\" of \
                        the material in the bat file say what it bears";
@@ -229,13 +235,11 @@ pub fn reached(load: &Load, units: Units) -> String {
 }
 
 /// The load on the bat in hits at some places, for a screen.
-pub fn strengths(all: &[Strength], units: Units) -> String {
+pub fn strengths(bat: &Bat, all: &[Strength], units: Units) -> String {
     if all.iter().all(|at| at.limits.is_empty()) {
         return String::new();
     }
-    let mut out = String::from(
-        "Strength (clear wood along the grain; slope of grain, knots and dents not known)\n",
-    );
+    let mut out = heading(bat);
     for at in all {
         for load in &at.limits {
             let text = reached(load, units);

@@ -237,7 +237,7 @@ fn of_rules(set: &RulesKept, us: bool) -> String {
     out += &lines(
         &set.limits,
         &[
-            (first(24, ""), &|ruled| ruled.rule.name().replace('_', " ")),
+            (first(24, ""), &|ruled| ruled.rule.name().replace('_', " ").replace("bbcor", "BBCOR")),
             (labels(18, "limit"), &|ruled| said(ruled, ruled.limit)),
             (labels(18, "this bat"), &|ruled| said(ruled, ruled.value)),
             (labels(10, ""), &|ruled| {

@@ -12,7 +12,7 @@ use sweetspot::Bat;
 use sweetspot::base::number::{percent, significant};
 use sweetspot::files::schema::document::BatName;
 use sweetspot_study::calibrate::calibration::{
-    Calibration, Estimated, Property, Verdict, WithoutOutliers,
+    Calibration, Estimated, Property, Verdict, WithoutOutliers, contrary,
 };
 use sweetspot_study::calibrate::fit::{DatumKind, Residual};
 use sweetspot_study::calibrate::next::Proposal;
@@ -57,7 +57,7 @@ fn within(one: &Estimated) -> String {
 fn data(found: &Calibration, us: bool) -> String {
     let mut out = format!(
         "Readings beside the bat of that wood: chi2 {} of {} data\n",
-        significant(found.misfit(), 3),
+        significant(found.chi2, 3),
         found.expected
     );
     let sd = |value: f64| format!("{value:+.1} sd");
@@ -128,6 +128,10 @@ pub fn words(found: &Calibration) -> Vec<String> {
     let mut all = vec![];
     all.extend(labelled(found));
     all.extend(mismatch(found));
+    all.extend(contrary(&found.readings.ring_down).map(|(mode, ends)| {
+        let [least, largest] = ends.map(|loss| significant(loss, 3));
+        format!("The loss factors of mode {mode}, {least} to {largest}, contradict each other: count again.")
+    }));
     all.extend(found.parameters.iter().filter_map(|one| foreign(found, one)));
     if found.typical_shear {
         all.push(

@@ -10,6 +10,7 @@ use crate::schema::frf::{
     FrfFile, Height, MeasuredAnswer, MeasuredValues, PeakBeside, PeakLine, ResponseValues,
 };
 use sweetspot::Bat;
+use sweetspot::base::units::{POUND_FORCE, gravities, inches};
 use sweetspot::motion::frf::{Frf, ResponseKind, Sample};
 use sweetspot::motion::peaks::Peak;
 use sweetspot_study::ignored::published_damping;
@@ -31,7 +32,7 @@ pub struct ToldResponse<'a> {
     pub asked: &'a [f64],
     /// The peaks of the answer.
     pub peaks: &'a [Peak],
-    /// The units of places.
+    /// The units of places and answers.
     pub units: Units,
     /// A measured response, laid over it.
     pub measured: Option<(&'a MeasuredResponse, &'a Laid)>,
@@ -135,12 +136,15 @@ pub fn phase(re: f64, im: f64) -> f64 {
     (im + 0.0).atan2(re + 0.0).to_degrees()
 }
 
-/// The unit of an answer, for people.
-pub fn unit(kind: ResponseKind) -> &'static str {
-    match kind {
-        ResponseKind::Receptance => "m/N",
-        ResponseKind::Mobility => "m/(s N)",
-        ResponseKind::Accelerance => "1/kg",
+/// The unit of an answer for people, and the number of these units per SI unit.
+pub fn unit(kind: ResponseKind, us: bool) -> (&'static str, f64) {
+    match (kind, us) {
+        (ResponseKind::Receptance, false) => ("m/N", 1.0),
+        (ResponseKind::Mobility, false) => ("m/(s N)", 1.0),
+        (ResponseKind::Accelerance, false) => ("1/kg", 1.0),
+        (ResponseKind::Receptance, true) => ("in/lbf", inches(POUND_FORCE)),
+        (ResponseKind::Mobility, true) => ("in/(s lbf)", inches(POUND_FORCE)),
+        (ResponseKind::Accelerance, true) => ("g/lbf", gravities(POUND_FORCE)),
     }
 }
 
@@ -153,7 +157,7 @@ const PEAKS: usize = 10;
 pub fn text(told: &ToldResponse, full: bool, every: bool) -> String {
     let ToldResponse { bat, kind, places: [at, to], frf, samples, asked, peaks, measured, units } =
         *told;
-    let most = if full { usize::MAX } else { PEAKS };
+    let (us, most) = (units == Units::Us, if full { usize::MAX } else { PEAKS });
     let [at, to] = [at, to].map(|x| Quantity::Length.said(units, x));
     let title = format!(
         "Frequency response of {}: {} from a force at {at} to {to}",
@@ -165,7 +169,7 @@ pub fn text(told: &ToldResponse, full: bool, every: bool) -> String {
         out += &answers(told, if full || every { usize::MAX } else { FREQUENCIES });
     }
     if full || measured.is_none() {
-        out += &listed(kind, peaks, most);
+        out += &listed(unit(kind, us), peaks, most);
     }
     let between = samples.len().saturating_sub(asked.len());
     if full && between > 0 {
@@ -175,10 +179,15 @@ pub fn text(told: &ToldResponse, full: bool, every: bool) -> String {
         );
         out += &wrapped(&so, 2);
     }
+    if frf.still {
+        return out + "  zero: a support keeps the bat at rest there\n";
+    }
     let share = |s: &Sample| s.truncation / s.receptance.norm().max(f64::MIN_POSITIVE);
     let missing = samples.iter().map(share).fold(0.0, f64::max);
     let bending = if frf.solution.rigid_modes > 0 { ", of bending alone" } else { "" };
-    let _ = writeln!(out, "  under a constant force {:.6e} m/N{bending}", frf.static_compliance());
+    let (name, per) = unit(ResponseKind::Receptance, us);
+    let still = per * frf.static_compliance();
+    let _ = writeln!(out, "  under a constant force {still:.6e} {name}{bending}");
     let modes = frf.solution.modes.len();
     let made = format!(
         "  made of {modes} modes and {} shapes for those above; at most {missing:.0e} of a value \
@@ -195,15 +204,16 @@ pub fn text(told: &ToldResponse, full: bool, every: bool) -> String {
 
 /// The response at the given number of requested frequencies at most, evenly chosen.
 fn answers(told: &ToldResponse, most: usize) -> String {
-    let ToldResponse { kind, samples, asked, .. } = *told;
+    let ToldResponse { kind, samples, asked, units, .. } = *told;
+    let (name, per) = unit(kind, units == Units::Us);
     let asked_for = samples.iter().filter(|sample| asked.contains(&sample.frequency));
     let value = |sample: &Sample| sample.receptance * kind.of(sample.frequency);
     lines(
         asked_for.step_by(asked.len().div_ceil(most).max(1)),
         &[
             (numbers(16, "frequency, Hz"), &|sample| format!("{:.3}", sample.frequency)),
-            (numbers(19, format!("size, {}", unit(kind))), &|sample| {
-                format!("{:.5e}", value(sample).norm())
+            (numbers(19, format!("size, {name}")), &|sample| {
+                format!("{:.5e}", per * value(sample).norm())
             }),
             (numbers(15, "phase, deg"), &|sample| {
                 format!("{:.2}", phase(value(sample).re, value(sample).im))
@@ -295,7 +305,7 @@ fn differences(
 }
 
 /// At most that number of peaks, with the damping from their widths.
-fn listed(kind: ResponseKind, peaks: &[Peak], most: usize) -> String {
+fn listed((name, per): (&str, f64), peaks: &[Peak], most: usize) -> String {
     if peaks.is_empty() {
         return String::new();
     }
@@ -304,8 +314,8 @@ fn listed(kind: ResponseKind, peaks: &[Peak], most: usize) -> String {
         peaks.iter().take(most),
         &[
             (numbers(16, "peak, Hz"), &|peak| format!("{:.3}", peak.frequency)),
-            (numbers(19, format!("size, {}", unit(kind))), &|peak| {
-                peak.height.map_or("no bound".into(), |height| format!("{height:.5e}"))
+            (numbers(19, format!("size, {name}")), &|peak| {
+                peak.height.map_or("no bound".into(), |height| format!("{:.5e}", per * height))
             }),
             (numbers(15, "damping, %"), &|peak| peak.damping_ratio().map_or("-".into(), ratio)),
             (numbers(8, "mode"), &|peak| peak.mode.to_string()),

@@ -18,7 +18,7 @@ const FLAGS: [(&str, char, &str); 8] = [
     ("late_contact", 'l', "the bat caught up when the force had almost gone"),
     ("second_contact", 's', "hit again after it left; the speed is that in the end"),
     ("ball_law_beyond", 'b', "not measured for such a hit (docs/limits.md)"),
-    ("no_contact", 'n', "the bat runs away from the ball"),
+    ("no_contact", 'n', "ball and bat do not approach each other"),
     ("no_section", 'p', "the bat ends in a point"),
     ("no_real_solution", 'i', "the model has no real solution"),
     ("unresolved", 'u', "not resolved: the energies do not close"),
@@ -143,7 +143,7 @@ pub fn meaning(model: Model) -> &'static str {
 pub fn beyond(sweep: &Sweep, scene: &Scene, units: Units) -> Option<String> {
     let closing = |i: &Impact| i.bat_speed + scene.ball_speed;
     let fastest = sweep.impacts.iter().map(closing).fold(0.0, f64::max);
-    let change = sweep.truncation? * fastest;
+    let change = sweep.truncation.filter(|_| sweep.worst().is_some())? * fastest;
     let change = Quantity::Speed.said(units, change);
     let count = sweep.solution.modes.len();
     Some(format!(
@@ -277,7 +277,8 @@ pub fn scene(bat: &Bat, scene: &Scene, model: Model, units: Units) -> String {
         out += &wrapped(&format!("     the bat is edited: {}", edits::listed(bat, units)), 5);
     }
     if let Some(Wall { stiffness, mass }) = scene.wall {
-        let _ = writeln!(out, "     the barrel's wall gives way: {stiffness:.3e} N/m, {mass} kg");
+        let (k, m) = (Quantity::Stiffness.said(units, stiffness), Quantity::Mass.said(units, mass));
+        let _ = writeln!(out, "     the barrel's wall gives way: {k}, {m}");
     }
     if let Some(wall) = scene.hoop.wall() {
         out += &wrapped(&format!("     {}", wall_words(bat, scene, wall)), 5);

@@ -17,8 +17,6 @@ use sweetspot_study::trampoline::barrel::{Barrel, HoopModel, Rebound};
 use sweetspot_study::trampoline::pressed::{BarrelCompression, HarmonicShare, PressedWall};
 use sweetspot_study::trampoline::thickness::{FACTORS, WallTried};
 
-const MEGA: f64 = 1e6;
-
 /// How the barrel of a hollow bat rings, how its wall deforms under a ball, and how that affects the ball. SI units,
 /// named at the end of each member; positions count from the knob end; a value that does not exist is null. Later
 /// versions with the same number may have more members.
@@ -143,10 +141,10 @@ fn pressed(barrel: &Barrel, wall: &PressedWall, units: Units) -> String {
     let patch = [wall.patch_half_length_m, wall.patch_half_width_m];
     let patch = patch.map(|half| Quantity::Small.said(units, 2.0 * half)).join(" by ");
     format!(
-        "Wall under a {}, {} from the tip: {} MN/m{ball}; {} thick, patch {}.",
+        "Wall under a {}, {} from the tip: {}{ball}; {} thick, patch {}.",
         barrel.test.ball.name,
         Quantity::Length.said(units, wall.from_tip_m),
-        significant(wall.stiffness_n_m / MEGA, 3),
+        Quantity::Stiffness.said(units, wall.stiffness_n_m),
         small(units, wall.thickness_m),
         patch,
     )
@@ -224,8 +222,8 @@ pub fn sweep(tried: &[WallTried], units: Units) -> String {
             (labels(18, "wall under the ball"), &|one| small(units, one.thickness_m)),
             (numbers(7, "times"), &|one| format!("{:.1}", one.factor)),
             (numbers(11, "n=2, m=1"), &|one| format!("{:.0} Hz", one.frequency_hz)),
-            (numbers(11, "stiffness"), &|one| {
-                format!("{} MN/m", significant(one.stiffness_n_m / MEGA, 3))
+            (numbers(15, "stiffness"), &|one| {
+                Quantity::Stiffness.said(units.first(), one.stiffness_n_m)
             }),
             (numbers(7, "stiff"), &|one| format!("{:.3}", one.stiff)),
             (numbers(7, "BBCOR"), &|one| format!("{:.3}", one.wall)),

@@ -180,6 +180,7 @@ fn named(answer: Answer) -> String {
         Answer::ExitSpeedPlace => "sweet spot",
         Answer::Zone(_) => "sweet zone",
         Answer::Vibration => "vibration",
+        Answer::VibrationPlace => "place of least vibration",
         Answer::Bbcor => "BBCOR",
         Answer::HandsVelocity | Answer::HandsAcceleration => "hands",
         _ => return answer.name(),

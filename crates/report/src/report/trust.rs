@@ -150,15 +150,16 @@ fn doubted(doubt: &Doubt, units: Units) -> String {
     match doubt {
         Doubt::Density(text) => format!("Look at the file: {text}"),
         Doubt::Shear(text) => format!("Shear is left out: {text}."),
-        Doubt::Dent(wall) => {
+        Doubt::Dent(wall, held) => {
             let us = units.us_first();
             let scale = Quantity::Small.scale(us);
             let [low, high] = wall.bbcor.range;
             format!(
                 "The wall dents by {} of its {}: beyond half of it this theory ends; the ball's figures are \
-                 rough, free BBCOR {:.3} ({:.3} stiff; {low:.3} to {high:.3}).",
+                 rough, {}BBCOR {:.3} ({:.3} stiff; {low:.3} to {high:.3}).",
                 scale.value(wall.dent_m),
                 scale.text(wall.thickness_m),
+                if *held { "" } else { "free " },
                 wall.bbcor.with,
                 wall.bbcor.stiff
             )

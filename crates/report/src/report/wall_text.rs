@@ -14,10 +14,15 @@ pub fn wall_words(bat: &Bat, scene: &Scene, wall: &HoopWall) -> String {
         format!(": by estimate that is {} of BBCOR", significant(gain, 1))
     });
     format!(
-        "the barrel's wall gives way by {} hoop modes, of harmonics 0 and 2 to {last} around \
-         it{why}",
-        wall.modes().len()
+        "the barrel's wall gives way {}, of harmonics 0 and 2 to {last} around it{why}",
+        by(wall)
     )
+}
+
+/// How a wall gives way.
+pub fn by(wall: &HoopWall) -> String {
+    let modes = wall.modes().len();
+    if modes == 0 { "at once".to_owned() } else { format!("by {modes} hoop modes") }
 }
 
 /// The effect of the wall of a hollow barrel at a place, and on BBCOR there.
@@ -33,8 +38,8 @@ pub fn wall_facts(wall: &WallFigures, units: Units) -> Vec<Fact> {
         (
             "wall under the ball",
             format!(
-                "{:.1} MN/m, {:.1} times the ball's",
-                1e-6 * wall.stiffness_n_m,
+                "{}, {:.1} times the ball's",
+                Quantity::Stiffness.said(units, wall.stiffness_n_m),
                 wall.stiffness_over_ball
             ),
         ),

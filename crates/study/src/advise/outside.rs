@@ -1,18 +1,18 @@
 //! The physics of bats that no model here has.
 
-use crate::engine::{Bat, CUP};
+use crate::engine::{Bat, rings};
+use crate::ignored::thinnest_wall;
 
 /// Effects outside every model, one sentence each, if they can matter to this bat.
 pub fn outside(bat: &Bat) -> Vec<String> {
-    let hollow = bat.profile().pieces.iter().any(|piece| {
-        let empty = bat.layup(piece).core.is_none() && piece.start < bat.length() - CUP;
-        empty && [0.0, 0.5, 1.0].iter().any(|s| piece.at(*s).inner > 0.0)
-    });
     let mut outside = vec![
-        if hollow {
+        if rings(bat) {
             "hoop modes: the wall of this hollow bat also vibrates as a ring and is compliant \
              under the ball (trampoline effect); the sections of a beam stay round, but a hit \
              includes these modes (--wall) and sweetspot hoop shows them"
+        } else if thinnest_wall(bat).is_some() {
+            "hoop modes: the wall of this hollow bat of wood also gives way under the ball; sections \
+             stay round, and no model has it"
         } else {
             "hoop modes of hollow barrels: sections stay round; this bat has no empty bore"
         },

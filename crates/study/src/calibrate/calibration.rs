@@ -123,7 +123,7 @@ pub struct Calibration {
     pub model: f64,
     /// Whether the readings fit this bat.
     // There is no outlier, the fit has converged, χ² of the data is not far above their number, no given label was
-    // replaced, no other labels come near, and most of the lines are bending modes.
+    // replaced, no other labels come near, most of the lines are bending modes, and each mode has one loss factor.
     pub fits: bool,
     /// Steps of the fit.
     pub steps: usize,
@@ -196,6 +196,10 @@ impl Calibration {
         let wood = WoodenBat::new(bat, plan.split, pivot)?;
         let mut search =
             Search { wood: &wood, readings: &readings, held: &plan.held, about: [0.0; UNKNOWNS] };
+        let properties = Property::of(wood.regions());
+        if let Some(held) = plan.held.iter().find(|held| !properties.contains(held)) {
+            return Err(Error::value("--hold", held.name(), "E, G or density without --regions"));
+        }
         if search.free().is_empty() {
             return Err(Error::value("--hold", "everything", "something that is not held"));
         }
@@ -207,7 +211,6 @@ impl Calibration {
             fit = search.fit(&data, fit.shown.frequencies.len(), &about)?;
         }
         let (parameters, open) = estimated(&search, &fit)?;
-        let properties = Property::of(wood.regions());
         let parts: Vec<Vec<f64>> =
             properties.iter().map(|property| property.parts(fit.covariance.len())).collect();
         let outliers = fit.residuals.iter().filter(|residual| residual.is_outlier());
@@ -226,6 +229,7 @@ impl Calibration {
                 && labels.changed().is_empty()
                 && labels.is_sure()
                 && !labels.is_mostly_discarded()
+                && contrary(&readings.ring_down).is_none()
                 && !parameters.iter().any(Estimated::is_foreign_density),
             parameters,
             steps: fit.steps,
@@ -242,11 +246,6 @@ impl Calibration {
             data: fit.residuals,
             readings,
         })
-    }
-
-    /// χ² of the data alone.
-    pub fn misfit(&self) -> f64 {
-        misfit(&self.data)
     }
 
     /// The loss factor of the wood, the mean over all tones with a measured decay; `None` without one.
@@ -282,6 +281,16 @@ impl LossFound {
     }
 }
 
+/// The first mode whose loss factors differ by more than a factor of two, with the least and the largest: amplitudes
+/// read to a tenth explain a sixth.
+pub fn contrary(tones: &[RingDown]) -> Option<(usize, [f64; 2])> {
+    tones.iter().find_map(|RingDown { mode, .. }| {
+        let own = tones.iter().filter(|other| other.mode == *mode).map(RingDown::loss_factor);
+        let ends = [own.clone().fold(f64::INFINITY, f64::min), own.fold(0.0, f64::max)];
+        (ends[1] > 2.0 * ends[0]).then_some((*mode, ends))
+    })
+}
+
 /// The largest χ² of the given number of data that chance explains: four standard deviations above their number.
 fn far(data: usize) -> f64 {
     data as f64 + 4.0 * (2.0 * data as f64).sqrt()
@@ -291,8 +300,12 @@ fn far(data: usize) -> f64 {
 fn check(bat: &Bat, readings: &BatReadings, pivot: f64) -> Result<()> {
     let rigid = [readings.mass.is_some(), readings.balance_point.is_some()];
     if rigid == [false; 2] && readings.pendulum.is_none() && readings.lines.is_empty() {
-        let expected = "\"mass\", \"balance_point\", \"pendulum\" or \"lines\"";
-        return Err(Error::value("readings", "nothing that was measured", expected));
+        let alone = readings.ring_down.first().map_or(String::new(), |tone| {
+            format!("; \"ring_down\" alone tells the loss factor, {:.3e}", tone.loss_factor())
+        });
+        let expected = format!("\"mass\", \"balance_point\", \"pendulum\" or \"lines\"{alone}");
+        let found = "nothing that was measured of E, G and density";
+        return Err(Error::value("readings", found, expected));
     }
     let length = bat.length();
     if let Some(balance) = readings.balance_point.filter(|balance| balance.value >= length) {

@@ -38,7 +38,7 @@ written! {
             lines.unwrap_or_default().into_iter().unzip();
         let died = ring_down.unwrap_or_default().into_iter().chain(heard.into_iter().flatten());
         if let Some(node) = of.at("lines") {
-            let told = each_mode_once(node, &lines);
+            let told = each_once(node, &lines);
             of.mistakes.note(told);
         }
         Ok(BatReadings {
@@ -187,12 +187,15 @@ fn order() -> Form<usize> {
     order.saying("minimum", 1).saying("maximum", MOST_MODES)
 }
 
-fn each_mode_once(node: &Node, lines: &[SpectralLine]) -> Result<()> {
-    let again =
-        |k: usize| lines[k].mode.is_some() && lines[..k].iter().any(|l| l.mode == lines[k].mode);
+/// Refuses a mode or a frequency that is there twice; a frequency that could not be read is 0.
+fn each_once(node: &Node, lines: &[SpectralLine]) -> Result<()> {
+    let again = |k: usize| {
+        let (mode, hz) = (lines[k].mode, lines[k].frequency.value);
+        let same_mode = |line: &SpectralLine| mode.is_some() && line.mode == mode;
+        lines[..k].iter().any(|line| same_mode(line) || hz > 0.0 && line.frequency.value == hz)
+    };
     mistakes::all((0..lines.len()).filter(|k| again(*k)).map(|k| {
-        let item = node.item(k);
-        Err::<(), _>(item.error("a mode a second time", "every mode once"))
+        Err::<(), _>(node.item(k).error("a line a second time", "every mode once, every line once"))
     }))
     .map(|_| ())
 }

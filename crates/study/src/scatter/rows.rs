@@ -276,6 +276,9 @@ fn check(bat: &Bat, plan: &ScatterPlan) -> Result<()> {
         let found = format!("it, but {} has no shear modulus", bat.without_shear());
         return Err(Error::value("shear_over_young", found, "a bat whose shear modulus is known"));
     }
+    if has(&|what| what == Differs::Moisture) && bat.material().scatter().is_none() {
+        return Err(Error::value("moisture", "a material that is no wood", "a bat of wood"));
+    }
     let parted = has(&|what| matches!(what, Differs::BarrelDensity | Differs::ModulusRatio));
     if parted && bat.fixtures().regions.len() != 1 {
         let found = "a covariance of two regions, for a bat that has not two";

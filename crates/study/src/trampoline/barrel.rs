@@ -6,8 +6,8 @@ use serde::Serialize;
 
 use crate::engine::{
     ASSUMED_POISSON_RATIO, Accuracy, Ball, Bat, Fixtures, Hitter, Hoop, HoopInHit, HoopMode,
-    HoopRequest, HoopWall, KnobSide, Material, Model, Result, Scene, TEST_SPEED, WallBbcor,
-    poisson_ratio, sweep,
+    HoopRequest, HoopWall, KnobSide, Material, Model, Result, Scene, Sweep, TEST_SPEED, Trial,
+    WallBbcor, poisson_ratio, sweep,
 };
 use crate::trampoline::pressed::{BarrelCompression, PressedWall};
 
@@ -132,14 +132,14 @@ const MODES: usize = 10;
 
 impl Barrel {
     /// The barrel of that bat with its uncertainties: an unknown Poisson's ratio, and motion of the first mode at the
-    /// end of the stretch.
+    /// end of the stretch. `hits` of the bat, if there are some, have modes for the ball's rebound too.
     ///
     /// # Errors
     ///
     /// As [`Hoop::first`] and [`BarrelStruck::of`].
-    pub fn of(bat: &Bat, test: BarrelTest) -> Result<Self> {
+    pub fn of(bat: &Bat, test: BarrelTest, hits: Option<&Sweep>) -> Result<Self> {
         let hoop = Hoop::first(bat, test.modes, test.tol)?;
-        let struck = BarrelStruck::of(bat, &test)?;
+        let struck = BarrelStruck::of(bat, &test, hits)?;
         let known = first(&hoop).map(|mode| mode.omega);
         let change = |bat: &Bat, end: KnobSide| {
             let (tol, harmonics) = (test.tol, vec![2]);
@@ -198,14 +198,14 @@ impl BarrelStruck {
     /// # Errors
     ///
     /// As [`HoopWall::of`], and as [`sweep`] for a hit.
-    pub fn of(bat: &Bat, test: &BarrelTest) -> Result<Self> {
+    pub fn of(bat: &Bat, test: &BarrelTest, hits: Option<&Sweep>) -> Result<Self> {
         let solved = match &test.known {
             Some(known) => known.on(bat)?,
             None => HoopWall::of(bat, test.ball.radius_m, test.accuracy.exit_speed)?,
         };
         let mut wall = PressedWall::under(&solved, bat, &test.ball, test.at);
         let rebound = match (&mut wall, test.ball.stiffness) {
-            (Some(wall), Some(_)) => rebound(bat, &solved, test, wall)?,
+            (Some(wall), Some(_)) => rebound((bat, hits), &solved, test, wall)?,
             _ => None,
         };
         Ok(Self { first_hz: solved.first_hz(), wall, rebound })
@@ -219,7 +219,7 @@ fn first(hoop: &Hoop) -> Option<&HoopMode> {
 /// The rebound of the ball from the free bat at rest, and the stiffness of the wall compared with the ball's; `None` if
 /// they do not meet.
 fn rebound(
-    bat: &Bat,
+    (bat, hits): (&Bat, Option<&Sweep>),
     wall: &Arc<HoopWall>,
     test: &BarrelTest,
     pressed: &mut PressedWall,
@@ -236,8 +236,12 @@ fn rebound(
         hoop: HoopInHit::Counted(Arc::clone(wall)),
         ..Scene::default()
     };
-    let hits = sweep(&free, Model::Contact, &scene, &test.accuracy, &[test.at])?;
-    let hitter = Hitter::new(Model::Contact, &scene, &free, &hits.solution, hits.effort)?;
+    let (model, scene) = (Model::Contact, &scene);
+    let hits = match hits.filter(|_| free == *bat) {
+        Some(hits) => hits.again(bat, Trial { model, scene }, &test.accuracy, &[test.at])?,
+        None => sweep(&free, model, scene, &test.accuracy, &[test.at])?,
+    };
+    let hitter = Hitter::new(model, scene, &free, &hits.solution, hits.effort)?;
     let outcome = hits.impacts.first().and_then(|impact| impact.outcome.as_ref());
     let both = outcome.zip(hitter.wall_figures(test.at));
     Ok(both.and_then(|(outcome, figures)| {

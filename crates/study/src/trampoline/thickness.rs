@@ -36,7 +36,7 @@ pub struct WallTried {
 pub fn wall_sweep(bat: &Bat, known: &Barrel, tell: &dyn Fn(f64)) -> Vec<WallTried> {
     let struck = |bat: &Bat, factor: f64| match factor {
         1.0 => Some(known.struck.clone()),
-        _ => BarrelStruck::of(bat, &known.test).ok(),
+        _ => BarrelStruck::of(bat, &known.test, None).ok(),
     };
     let tried = |(k, factor): (usize, f64)| {
         tell(k as f64 / FACTORS.len() as f64);
