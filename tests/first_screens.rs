@@ -170,7 +170,7 @@ fn diameters_read_to_a_sixteenth_are_off_by_its_share_and_a_person_may_say_other
     }
     folder.write("bat.json", bat(fractions));
     let told = folder.text(&["analyze", "bat.json", "--quiet", "--calipers", "0.05 mm"]);
-    assert!(plain(&told).contains("calipers are off by 0.002 in"), "{told}");
+    assert!(plain(&told).contains("calipers are off by 0.0020 in"), "{told}");
 }
 
 const LOOSE: &str = r#"{ "format": "sweetspot-study/1", "bat": "r161", "points": 8,
@@ -293,7 +293,7 @@ fn a_screen_is_a_screen_and_full_has_the_rest() {
 fn what_is_cut_short_is_named_and_full_has_it() {
     let folder = Folder::new("cut-short");
     for (args, named, cut) in [
-        (&["modes", "composite_made_up", "-n", "20"][..], "nodes, damping. ", "    20  17720"),
+        (&["modes", "composite_made_up", "-n", "20"][..], "nodes, damping. ", "    20       17720"),
         (&["hit", "corked"], "modes left out", "20 modes; what is left out"),
         (&["compare", "cone", "tanh", "dowel"], "where along the barrel, trust. ", "By distance"),
         (&["hoop", "two_piece", "--wall-sweep"], "what the wall does. ", "Barrel compression"),
