@@ -43,13 +43,18 @@ impl Chapters {
         chapter.map_or("", |path| path)
     }
 
-    /// The tests of a file: those of every row whose path it begins with.
+    /// The tests of a file: those of every row whose path it begins with, the rows of the longest path first.
     pub fn tests(&self, file: &Path) -> Vec<&str> {
         let file = file.to_string_lossy();
-        let rows = self.rows.iter().filter(|(path, _)| file.starts_with(path.as_str()));
-        let mut tests: Vec<&str> = rows.flat_map(|(_, tests)| tests).map(String::as_str).collect();
-        tests.sort();
-        tests.dedup();
+        let mut rows: Vec<_> =
+            self.rows.iter().filter(|(path, _)| file.starts_with(path.as_str())).collect();
+        rows.sort_by_key(|(path, _)| usize::MAX - path.len());
+        let mut tests: Vec<&str> = Vec::new();
+        for test in rows.into_iter().flat_map(|(_, tests)| tests) {
+            if !tests.contains(&test.as_str()) {
+                tests.push(test);
+            }
+        }
         tests
     }
 

@@ -8,8 +8,8 @@
 //! ```
 //!
 //! draws `count` errors in each chapter, writes the copy of the workspace ROOT, omits mutants that do not compile, and
-//! builds the tests once. It runs them without a mutant to measure their times, and then for each mutant those that
-//! `chapters.txt` names for its place, the fastest first, until one fails. The result is a table in
+//! builds the tests once. For each mutant it runs the tests that `chapters.txt` names for its place, in that order,
+//! until one fails; each has run once without a mutant before, which measures its time. The result is a table in
 //! `COPY/mutants.txt`. Existing rows are kept: when started again, the program continues where it stopped.
 
 mod chapters;

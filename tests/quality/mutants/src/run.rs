@@ -41,13 +41,6 @@ pub fn all(
     let programs = build(copy, chapters)?;
     let mut steps: BTreeMap<&str, Step> = BTreeMap::new();
     let wanted = |number: &usize| only.is_empty() || only.contains(number);
-    for (_, site) in sites.iter().filter(|(number, _)| wanted(number)) {
-        for name in chapters.tests(&site.file) {
-            if !steps.contains_key(name) {
-                steps.insert(name, timed(copy, name, &programs, &chapters.without)?);
-            }
-        }
-    }
     let table = copy.join("mutants.txt");
     let known = fs::read_to_string(&table).unwrap_or_default();
     let is_known = |n: usize| known.lines().any(|l| l.split('\t').next() == Some(&n.to_string()));
@@ -56,28 +49,25 @@ pub fn all(
         if only.is_empty() && is_known(*number) {
             continue;
         }
-        let mut shown: Vec<&Step> =
-            chapters.tests(&site.file).into_iter().map(|name| &steps[name]).collect();
-        shown.sort_by_key(|step| step.takes);
-        let line = format!("{number}\t{}\t{site}", caught(&shown, *number)?);
+        let mut by = "SURVIVED".to_owned();
+        for name in chapters.tests(&site.file) {
+            if !steps.contains_key(name) {
+                steps.insert(name, timed(copy, name, &programs, &chapters.without)?);
+            }
+            let step = &steps[name];
+            match run(step, *number, 5 * step.takes + Duration::from_secs(20))? {
+                End::Passed => continue,
+                End::Failed(test) => by = test,
+                End::TooLong => by = format!("{name}: time"),
+            }
+            break;
+        }
+        let line = format!("{number}\t{by}\t{site}");
         println!("{line}");
         writeln!(file, "{line}")?;
     }
     summary(&fs::read_to_string(&table)?, chapters);
     Ok(())
-}
-
-/// The test that notices the error, or `SURVIVED`.
-fn caught(steps: &[&Step], number: usize) -> Result<String> {
-    for step in steps {
-        let limit = 5 * step.takes + Duration::from_secs(20);
-        match run(step, number, limit)? {
-            End::Passed => {}
-            End::Failed(test) => return Ok(test),
-            End::TooLong => return Ok(format!("{}: time", step.name)),
-        }
-    }
-    Ok("SURVIVED".to_owned())
 }
 
 /// How many errors were caught in each chapter; the last line of every error counts.
