@@ -58,10 +58,15 @@ impl Chapters {
         tests
     }
 
-    /// The names of all test programs of `tests/`.
+    /// The names of all test programs of `tests/`; the others are beside the code.
     pub fn programs(&self) -> Vec<&str> {
+        let beside = |name: &str| {
+            ["main", "sweetspot", "uff58"].contains(&name) || name.starts_with("sweetspot_")
+        };
         let tests = self.rows.iter().flat_map(|(_, tests)| tests);
-        let mut programs: Vec<_> = tests.filter_map(|t| Some(t.split_once(':')?.0)).collect();
+        let mut programs: Vec<_> =
+            tests.map(|test| test.split(':').next().unwrap_or(test)).collect();
+        programs.retain(|name| !beside(name));
         programs.sort();
         programs.dedup();
         programs

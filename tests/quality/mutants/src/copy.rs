@@ -105,16 +105,20 @@ fn write(root: &Path, copy: &Path, sites: &[(usize, Site)]) -> Result<(Vec<Plant
         // An unchanged file keeps its time, and is not built again.
         if fs::read(&target).ok().as_ref() != Some(&bytes) {
             fs::write(&target, bytes)?;
-            changed |= name.components().any(|part| part.as_os_str() == "src");
+            changed |= is_built(name);
         }
     }
     Ok((all, changed))
 }
 
-/// Whether a file is the root of the library, of a crate or of the page's core: each has a switch of its own.
+/// Whether a file is of the library, of a crate or of the page's core.
+fn is_built(name: &Path) -> bool {
+    ["src", "crates", "lab/src"].iter().any(|folder| name.starts_with(folder))
+}
+
+/// Whether it is the root of one of them: each has a switch of its own.
 fn is_root(name: &Path) -> bool {
-    let ours = ["src", "crates", "lab/src"].iter().any(|folder| name.starts_with(folder));
-    ours && (name.ends_with("src/lib.rs") || name.ends_with("src/main.rs"))
+    is_built(name) && (name.ends_with("src/lib.rs") || name.ends_with("src/main.rs"))
 }
 
 struct Planting {
