@@ -231,6 +231,8 @@ mod tests {
             assert_eq!(b.copysign(a).lane(k), 2.0_f64.copysign(x));
             assert_eq!(a.if_zero(b, a).lane(k), if x == 0.0 { 2.0 } else { x });
         }
+        // Every lane counts once.
+        assert_eq!(Lanes(from_fn(|k| f64::from(1_u32 << k))).sum(), 255.0);
         assert!(a.within(Lanes::splat(4.0)) && !a.within(Lanes::splat(3.9)));
     }
 }

@@ -145,6 +145,8 @@ mod tests {
         assert_eq!(terms("1 lb 14 1/2 oz"), [("1", "lb"), ("14 1/2", "oz")]);
         assert_eq!(terms("4e5 N/m^2"), [("4e5", "N/m^2")]);
         assert_eq!(terms("in"), [("", "in")]);
+        // Only a number begins the next part.
+        assert_eq!(terms("5 ft lb"), [("5", "ft lb")]);
         assert_eq!(split("33-1/2in"), ("33-1/2", "in"));
         assert_eq!(split("-5"), ("-5", ""));
     }

@@ -481,3 +481,24 @@ fn in_range(what: &str, value: f64, unit: &str) -> Result<()> {
     };
     Err(Error::value(what, found, "a value between 1e-100 and 1e100: check the units"))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bat::profile::{Interpolation, Stations};
+
+    /// A material keeps the loss factor that it has, and gets the assumed one if nothing is known of it.
+    #[test]
+    fn losses_are_filled_in_where_there_are_none() {
+        let (x, outer) = (vec![0.0, 0.8], vec![0.02; 2]);
+        let stations =
+            Stations { x, outer, inner: vec![0.0; 2], interpolation: Interpolation::Linear };
+        let profile = Profile::new(stations).unwrap();
+        for (own, filled) in [(0.01, 0.01), (0.0, 0.03)] {
+            let mut material = Material::new(700.0, 1e10).unwrap();
+            material.loss_factor = own;
+            let bat = Bat::builder(profile.clone(), material).build().unwrap();
+            assert_eq!(bat.with_losses(0.03).unwrap().material().loss_factor, filled);
+        }
+    }
+}

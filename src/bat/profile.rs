@@ -390,6 +390,16 @@ mod tests {
     use super::*;
 
     #[test]
+    fn a_reversed_profile_has_its_stations_from_the_other_end() {
+        let (x, inner) = (vec![0.0, 0.5, 0.75], vec![0.0; 3]);
+        let outer = vec![0.01, 0.02, 0.04];
+        let one = Profile::new(Stations { x, outer, inner, interpolation: Interpolation::Linear });
+        let other = one.unwrap().reversed();
+        assert_eq!(other.stations.x, [0.0, 0.25, 0.75]);
+        assert_eq!(other.stations.outer, [0.04, 0.02, 0.01]);
+    }
+
+    #[test]
     fn columns_of_unequal_length_are_an_error() {
         let new = |outer: usize, inner: usize| {
             let (outer, inner) = (vec![0.02; outer], vec![0.0; inner]);

@@ -220,6 +220,18 @@ mod tests {
         }
     }
 
+    /// A half sine of one and a half periods of a mode gives it nothing, and a short one `J φ² ω/m`.
+    #[test]
+    fn a_blow_of_one_and_a_half_periods_leaves_its_mode_at_rest() {
+        let solution = solve(&Bat::builtin("r161").unwrap(), &Request::plain()).unwrap();
+        for (k, mode) in solution.modes.iter().enumerate() {
+            let of = |duration: f64| bending(&solution, 0.8, [0.2, duration]).nth(k).unwrap();
+            let most = 0.2 * mode.shape.deflection(0.8).powi(2) * mode.omega / mode.modal_mass;
+            assert!((of(1e-9) / most - 1.0).abs() < 1e-6);
+            assert!(of(3.0 * PI / mode.omega) < 1e-9 * most);
+        }
+    }
+
     #[test]
     fn a_tone_has_its_mode_and_dies_out_with_its_damping() {
         let bat = Bat::builtin("r161").unwrap();

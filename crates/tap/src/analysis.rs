@@ -277,6 +277,59 @@ mod tests {
         Recording::of("x", std::iter::repeat_n(0.0, 4000).chain(sound).collect(), rate).unwrap()
     }
 
+    /// A recording cut at full scale is called clipped; the same at a tenth of it, or not cut, is not.
+    #[test]
+    fn what_is_cut_at_full_scale_is_called_clipped() {
+        let heard = |gain: f64, cut: f64, after: f64| {
+            let mut one = recording(&[175.0, 581.0, 1187.0], 8000.0);
+            one.samples.iter_mut().for_each(|x| *x = after * (gain * *x).clamp(-cut, cut));
+            let found = Analysis::of(&[one], None);
+            let said = found.warnings.iter().any(|(code, _)| *code == Code::Clipped);
+            assert_eq!((said, found.has_loss), (found.conditions[0].clipped, !said));
+            said
+        };
+        assert_eq!(
+            [heard(0.9, 1.0, 1.0), heard(0.1, 1.0, 1.0), heard(0.9, 1.0, 0.1)],
+            [true, false, false]
+        );
+    }
+
+    /// One tap is called one, and two are not.
+    #[test]
+    fn one_tap_is_called_one() {
+        for taps in [1, 2, 5] {
+            let mut one = recording(&[175.0, 581.0, 1187.0], 8000.0);
+            one.samples.truncate(4000 + taps * 8400);
+            let found = Analysis::of(&[one], None);
+            assert_eq!(found.taps.len(), taps);
+            let said = found.warnings.iter().any(|(code, _)| *code == Code::OneTap);
+            assert_eq!(said, taps == 1, "{taps}");
+        }
+    }
+
+    /// Hiss that rises by a number of decibels in a second rises by 0.49 of it between the parts that are compared.
+    #[test]
+    fn a_gain_that_rises_is_measured() {
+        let rate = 44_100.0;
+        let hiss = |level: &dyn Fn(f64) -> f64| {
+            let mut state = 1_u64;
+            let one = |n: usize| {
+                state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+                let even = (state >> 33) as f64 / (1_u64 << 30) as f64 - 1.0;
+                0.01 * even * 10.0_f64.powf(level(n as f64 / rate) / 20.0)
+            };
+            let samples: Vec<f64> = (0..44_100).map(one).collect();
+            gain_rise(&samples, rate, &[[0, samples.len()]]).unwrap()
+        };
+        for decibels in [0.0, 6.0, 12.0] {
+            let rise = hiss(&|t| decibels * t);
+            assert!((rise - 0.49 * decibels).abs() < 0.5, "{decibels} {rise}");
+        }
+        // The quieter of the two parts before counts: the first one here, which is 10 dB below the rest.
+        let rise = hiss(&|t| if t < 0.5 { 0.0 } else { 10.0 });
+        assert!((rise - 10.0).abs() < 0.5, "{rise}");
+    }
+
     /// The tones of two planes of the grain, each plane in its own recording, are distinguished from 0.6 of their
     /// half-power widths on.
     #[test]

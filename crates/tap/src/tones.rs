@@ -431,6 +431,22 @@ impl Found {
 mod tests {
     use super::*;
 
+    /// The variance over taps is that of two numbers for two taps, of the frequency in half-power widths and of the
+    /// loss factor, wherever their means are.
+    #[test]
+    fn a_variance_is_that_about_the_mean() {
+        let loss = 0.01;
+        for mean in [[0.0, 0.0], [6.2, -4.6]] {
+            let one = |sign: f64| (0, [mean[0] + sign * 0.002, mean[1] + sign * 0.3]);
+            let whole =
+                Fit { poles: vec![Pole::of(500.0, loss)], deviations: vec![[0.0; 2]], square: 0.0 };
+            let singles = vec![vec![one(1.0), one(-1.0)]];
+            let found = Found { whole, misfits: vec![], singles, level: 0.0 };
+            // Half of (2 · 0.002/0.01)² + 0.3², for each of two taps, over one degree of freedom.
+            assert!((found.variance(0) / (0.16 + 0.09) - 1.0).abs() < 1e-9);
+        }
+    }
+
     /// The slopes of unit steps agree with weighted least squares.
     #[test]
     fn a_walk_turns_the_slope_as_its_steps_do() {

@@ -263,6 +263,16 @@ impl Mul for Interval {
 mod tests {
     use super::*;
 
+    /// A number that may be either side of 0 has a reciprocal of any size; the middle is half of the sum of the ends.
+    #[test]
+    fn middles_and_steep_slopes_are_those_of_their_ends() {
+        assert_eq!(Interval { low: 2.0, high: 4.0 }.middle(), 3.0);
+        let steep = Rectangle::real(Interval::within(1.0)).steep().re;
+        assert_eq!((steep.low, steep.high), (f64::NEG_INFINITY, f64::INFINITY));
+        let steep = Rectangle::real(Interval { low: 0.0, high: 2.0 }).steep().re;
+        assert!(steep.low <= 0.5 && steep.low > 0.49 && steep.high == f64::INFINITY);
+    }
+
     #[test]
     fn waves_reach_their_crests_and_steep_steps_their_ends() {
         let wave = Interval { low: 1.0, high: 2.0 }.sin();

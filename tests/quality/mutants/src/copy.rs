@@ -1,4 +1,4 @@
-//! The copy of the package with all mutants of a sample in it, each with a switch.
+//! The copy of the workspace with all mutants of a sample in it, each with a switch.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -9,7 +9,7 @@ use std::process::Command;
 use crate::Result;
 use crate::sites::{Change, Site};
 
-/// The module of the copy that selects the active mutant.
+/// The module in every crate of the copy that selects the active mutant.
 const SWITCH: &str = "//! Which planted error is on.
 
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
@@ -94,22 +94,31 @@ fn write(root: &Path, copy: &Path, sites: &[(usize, Site)]) -> Result<(Vec<Plant
                 range,
             }));
             bytes = planting.out.into_bytes();
-        } else if name == Path::new("src/lib.rs") {
-            let text = String::from_utf8(bytes)?;
-            let switch = "#[doc(hidden)]\npub mod mutant;\npub mod base;";
-            bytes = text.replacen("pub mod base;", switch, 1).into_bytes();
+        }
+        if is_root(name) {
+            bytes.extend(b"mod mutant;\n");
+            let switch = target.with_file_name("mutant.rs");
+            if !switch.exists() {
+                fs::write(switch, SWITCH)?;
+            }
         }
         // An unchanged file keeps its time, and is not built again.
         if fs::read(&target).ok().as_ref() != Some(&bytes) {
             fs::write(&target, bytes)?;
-            changed |= name.starts_with("src");
+            changed |= is_built(name);
         }
     }
-    let switch = copy.join("src/mutant.rs");
-    if !switch.exists() {
-        fs::write(switch, SWITCH)?;
-    }
     Ok((all, changed))
+}
+
+/// Whether a file is of the library, of a crate or of the page's core.
+fn is_built(name: &Path) -> bool {
+    ["src", "crates", "lab/src"].iter().any(|folder| name.starts_with(folder))
+}
+
+/// Whether it is the root of one of them: each has a switch of its own.
+fn is_root(name: &Path) -> bool {
+    is_built(name) && (name.ends_with("src/lib.rs") || name.ends_with("src/main.rs"))
 }
 
 struct Planting {
@@ -165,7 +174,8 @@ impl Planting {
 /// The errors at which the compiler stops.
 fn failing(copy: &Path, planted: &[Planted]) -> Result<BTreeSet<usize>> {
     let mut check = Command::new("cargo");
-    check.args(["check", "--locked", "--lib", "--message-format", "short"]).current_dir(copy);
+    check.args(["check", "--locked", "--lib", "--bins", "--keep-going"]).args(crate::PACKAGES);
+    check.args(["--message-format", "short"]).current_dir(copy);
     let output = check.output()?;
     let mut failed = BTreeSet::new();
     if output.status.success() {

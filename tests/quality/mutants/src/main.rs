@@ -1,17 +1,18 @@
-//! Plants errors (mutants) in the engine of sweetspot and counts how many its tests detect.
+//! Plants errors (mutants) in sweetspot's sources and counts how many its tests detect.
 //!
-//! A build of the engine costs minutes, so all errors of a sample are built into one copy of the
-//! sources and switched on one at a time by an environment variable (mutant schemata: R. H. Untch,
-//! A. J. Offutt, M. J. Harrold, Proc. ISSTA '93, 139).
+//! A build costs minutes, so all errors of a sample are built into one copy of the sources and switched on one at a
+//! time by an environment variable (mutant schemata: R. H. Untch, A. J. Offutt, M. J. Harrold, Proc. ISSTA '93, 139).
 //!
 //! ```text
-//! mutants ROOT COPY --seed 1 --count 150 --tests hits,beams
+//! mutants ROOT COPY --seed 1 --count 11
 //! ```
 //!
-//! writes the copy of the package ROOT, omits mutants that do not compile, builds the tests once, runs them without a
-//! mutant to measure their times, and then once per mutant, the fastest first, until one fails. The result is a table
-//! in `COPY/mutants.txt`. Existing rows are kept: when started again, the program continues where it stopped.
+//! draws `count` errors in each chapter, writes the copy of the workspace ROOT, omits mutants that do not compile, and
+//! builds the tests once. For each mutant it runs the tests that `chapters.txt` names for its place, in that order,
+//! until one fails; each has run once without a mutant before, which measures its time. The result is a table in
+//! `COPY/mutants.txt`. Existing rows are kept: when started again, the program continues where it stopped.
 
+mod chapters;
 mod copy;
 mod run;
 mod sites;
@@ -20,31 +21,33 @@ use std::path::PathBuf;
 
 type Result<T> = std::result::Result<T, Box<dyn std::error::Error>>;
 
+/// The packages that hold mutants and their tests.
+const PACKAGES: [&str; 5] =
+    ["--workspace", "--exclude", "sweetspot-python", "--exclude", "browser"];
+
 /// The command line.
 struct Asked {
     root: PathBuf,
     copy: PathBuf,
     seed: u64,
+    /// In each chapter.
     count: usize,
-    tests: Vec<String>,
     /// Only these mutants, by number; all of them if empty.
     only: Vec<usize>,
 }
 
-const USAGE: &str =
-    "usage: mutants ROOT COPY [--seed N] [--count N] [--tests NAME,NAME…] [--only N,N…]";
+const USAGE: &str = "usage: mutants ROOT COPY [--seed N] [--count N] [--only N,N…]";
 
 fn asked() -> Result<Asked> {
     let mut words = std::env::args().skip(1);
     let (Some(root), Some(copy)) = (words.next(), words.next()) else { return Err(USAGE.into()) };
     let (root, copy) = (PathBuf::from(root), PathBuf::from(copy));
-    let mut asked = Asked { root, copy, seed: 1, count: 150, tests: vec![], only: vec![] };
+    let mut asked = Asked { root, copy, seed: 1, count: 11, only: vec![] };
     while let Some(word) = words.next() {
         let value = words.next().ok_or(USAGE)?;
         match word.as_str() {
             "--seed" => asked.seed = value.parse()?,
             "--count" => asked.count = value.parse()?,
-            "--tests" => asked.tests = value.split(',').map(str::to_owned).collect(),
             "--only" => {
                 asked.only =
                     value.split(',').map(str::parse).collect::<std::result::Result<_, _>>()?
@@ -61,12 +64,18 @@ fn main() -> Result<()> {
     std::fs::create_dir_all(&asked.copy)?;
     asked.root = asked.root.canonicalize()?;
     asked.copy = asked.copy.canonicalize()?;
-    let all = sites::of_folders(&asked.root, &["src/beam", "src/eigen", "src/collision"])?;
-    println!("{} places for an error", all.len());
-    let drawn = sites::drawn(all, asked.seed, asked.count);
+    let table = asked.root.join("tests/quality/mutants/chapters.txt");
+    let chapters = chapters::Chapters::read(&table)?;
+    let mut drawn = Vec::new();
+    for folder in chapters.folders() {
+        let all = sites::of_folder(&asked.root, &folder)?;
+        println!("{} places for an error in {}", all.len(), folder.display());
+        drawn.extend(sites::drawn(all, asked.seed, asked.count));
+    }
+    let count = drawn.len();
     let built = copy::viable(&asked.root, &asked.copy, drawn)?;
-    println!("{} of {} drawn errors compile", built.len(), asked.count);
+    println!("{} of {count} drawn errors compile", built.len());
     let list: String = built.iter().map(|(number, site)| format!("{number}\t{site}\n")).collect();
     std::fs::write(asked.copy.join("sites.txt"), list)?;
-    run::all(&asked.copy, &built, &asked.tests, &asked.only)
+    run::all(&asked.copy, &built, &chapters, &asked.only)
 }

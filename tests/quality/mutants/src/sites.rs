@@ -41,19 +41,18 @@ pub enum Change {
     Insertion(String),
 }
 
-/// All sites in the Rust files of those folders, in the order of the files.
-pub fn of_folders(root: &Path, folders: &[&str]) -> Result<Vec<Site>> {
+/// All sites in the Rust files of a folder and of those in it, in the order of the files.
+pub fn of_folder(root: &Path, folder: &Path) -> Result<Vec<Site>> {
+    let entries: std::io::Result<Vec<_>> = fs::read_dir(root.join(folder))?.collect();
+    let mut names: Vec<_> = entries?.into_iter().map(|e| e.file_name()).collect();
+    names.sort();
     let mut sites = Vec::new();
-    for folder in folders {
-        let entries: std::io::Result<Vec<_>> = fs::read_dir(root.join(folder))?.collect();
-        let mut names: Vec<_> = entries?.into_iter().map(|e| e.file_name()).collect();
-        names.sort();
-        // Only built with the feature of that name.
-        let wanted = |name: &Path| {
-            name.extension().is_some_and(|e| e == "rs") && name != Path::new("arpack.rs")
-        };
-        for name in names.iter().map(Path::new).filter(|name| wanted(name)) {
-            let file = Path::new(folder).join(name);
+    for name in names.iter().map(Path::new) {
+        let file = folder.join(name);
+        if root.join(&file).is_dir() {
+            sites.append(&mut of_folder(root, &file)?);
+        // `arpack.rs` is only built with the feature of that name.
+        } else if name.extension().is_some_and(|e| e == "rs") && name != Path::new("arpack.rs") {
             let text = fs::read_to_string(root.join(&file))?;
             let mut finder = Finder { file, text: &text, sites: vec![] };
             finder.visit_file(&syn::parse_file(&text)?);
