@@ -23,6 +23,10 @@ const DEAF: f64 = 0.1;
 /// A hammer whose force spectrum falls by more within the band (dB) is too soft.
 const WEAK: f64 = -20.0;
 
+const DASHPOTS: &str = "Hands and absorbers with damping make modes complex, which the fit does not describe: \
+                        frequencies are off by about the square of the damping ratio, beyond the intervals, and \
+                        strongly damped modes are missed.";
+
 /// A set of responses and its modes.
 pub struct IdentifyReport<'a> {
     /// The responses.
@@ -134,17 +138,23 @@ impl IdentifyReport<'_> {
         let [hang, other] = test.hang().map(at);
         let [place, least] = test.reference();
         let fixed = self.set.fixed();
-        let mut all = vec![
-            one("hang", format!("Hang the bat at {hang} and {other}: the modes move least there.")),
-            one(
-                "reference",
-                format!(
-                    "Put the {fixed} at {}: every mode has {} of its largest deflection there, or more.",
-                    at(place),
-                    percent(least, 0)
-                ),
-            ),
-        ];
+        let hang = format!("Hang the bat at {hang} and {other}: the modes move least there.");
+        let mut all = if test.held { vec![] } else { vec![one("hang", hang)] };
+        let text = format!(
+            "Put the {fixed} at {}: every mode has {} of its largest deflection there, or more.",
+            at(place),
+            percent(least, 0)
+        );
+        all.push(one("reference", text));
+        let noise: Vec<String> =
+            test.false_modes(self.found).iter().map(|mode| frequency(&mode.frequency)).collect();
+        if !noise.is_empty() {
+            let text = format!("No modes of the bat, but of the noise: {}.", noise.join(", "));
+            all.push(one("false_modes", text));
+        }
+        if test.dashpots {
+            all.push(one("dashpots", DASHPOTS.to_owned()));
+        }
         let own = self.set.references[0].x;
         let deaf = test.modes.iter().filter(|mode| mode.shape.deflection(own).abs() < DEAF);
         let deaf: Vec<String> = deaf.map(|mode| mode.order.to_string()).collect();
@@ -265,7 +275,7 @@ impl IdentifyReport<'_> {
                 window_s: test.test.window,
                 seed: test.test.seed,
                 modes: self.planned(test),
-                hang_m: test.hang().to_vec(),
+                hang_m: if test.held { vec![] } else { test.hang().to_vec() },
                 reference_m: test.reference()[0],
                 reference_least: test.reference()[1],
                 force_db: test.force_db,

@@ -141,9 +141,6 @@ pub struct Calibration {
     /// Whether the readings fit the fitted wood, whatever the labels.
     #[serde(skip)]
     pub readings_agree: bool,
-    /// The first frequency of the fitted wood (Hz), if it was computed.
-    #[serde(skip)]
-    pub first_frequency: Option<f64>,
     /// Whether G is the typical one of its kind, because the file has none.
     #[serde(skip)]
     pub typical_shear: bool,
@@ -235,7 +232,6 @@ impl Calibration {
             loss_factors: readings.ring_down.iter().map(LossFound::of).collect(),
             next: proposals(&search, &fit, &parts),
             readings_agree,
-            first_frequency: fit.shown.frequencies.first().map(|first| first.value),
             typical_shear: wood.typical_shear,
             material: bat.material().name.clone(),
             bat: wood.of(&fit.logs)?,
@@ -261,6 +257,24 @@ impl Calibration {
     pub fn with_ring_down(mut self, tone: RingDown) -> Self {
         self.loss_factors.push(LossFound::of(&tone));
         self.readings.ring_down.push(tone);
+        self
+    }
+
+    /// The same wood, its intervals wider on both sides by its difference from that of another fit.
+    #[must_use]
+    pub fn as_wide_as(mut self, other: &Self) -> Self {
+        let mut factors = vec![];
+        for (one, other) in self.parameters.iter_mut().zip(&other.parameters) {
+            let apart = (other.value / one.value).ln().abs();
+            one.interval95[0] *= (-apart).exp();
+            one.interval95[1] *= apart.exp();
+            let factor = 1.0 + apart / (NINETY_FIVE * one.relative_sd.max(f64::EPSILON));
+            one.relative_sd *= factor;
+            factors.push(factor);
+        }
+        for (row, by) in self.covariance.iter_mut().zip(&factors) {
+            row.iter_mut().zip(&factors).for_each(|(one, factor)| *one *= by * factor);
+        }
         self
     }
 

@@ -13,7 +13,7 @@ use crate::engine::{
     Attachment, Bat, Error, Frf, Mode, Prepared, Request, ResponseKind, Result, RigidBat, prepare,
     solve,
 };
-use crate::identify::modes::Identified;
+use crate::identify::modes::{Identified, SharedMode};
 use crate::identify::set::ResponseSet;
 use crate::many::hash;
 use crate::measured::mac::mac;
@@ -30,7 +30,7 @@ pub struct VirtualTest {
     pub missing: usize,
     /// Number of places where the hammer bounces.
     pub double_hits: usize,
-    /// Position of the fixed part (m from the knob end); `None` for the tip.
+    /// Position of the fixed part (m from the knob end); `None` for the tip, or the last place if it is a point.
     pub reference: Option<f64>,
     /// Mass of each accelerometer (kg).
     pub accelerometer: f64,
@@ -58,6 +58,8 @@ pub const ASSUMED_LOSS: f64 = 0.01;
 const EXACT: f64 = 1e-8;
 /// Share of the force on a line without force.
 const SILENT: f64 = 1e-4;
+/// Share of the length from an end where a hammer slips.
+const EDGE: f64 = 0.02;
 /// Places that are tried for the reference and for hanging.
 const TRIED: usize = 200;
 
@@ -75,6 +77,10 @@ pub struct Simulated {
     pub force_db: f64,
     /// Whether a loss factor had to be assumed.
     pub assumed_loss: bool,
+    /// Whether the bat is held, so that it does not hang.
+    pub held: bool,
+    /// Whether dashpots damp it.
+    pub dashpots: bool,
     /// Length of the bat (m).
     length: f64,
 }
@@ -88,9 +94,12 @@ impl VirtualTest {
     pub fn of(&self, bat: &Bat) -> Result<Simulated> {
         self.check(bat)?;
         let length = bat.length();
-        let reference = self.reference.unwrap_or(length);
-        let last = (self.points - 1) as f64;
-        let mut places: Vec<f64> = (0..self.points).map(|k| length * k as f64 / last).collect();
+        // A point bears neither hammer nor accelerometer.
+        let margins = [0.0, length].map(|x| if is_point(bat, x) { EDGE * length } else { 0.0 });
+        let [first, last] = [margins[0], length - margins[1]];
+        let reference = self.reference.unwrap_or(last);
+        let step = (last - first) / (self.points - 1) as f64;
+        let mut places: Vec<f64> = (0..self.points).map(|k| first + step * k as f64).collect();
         let nearest = |x: &f64| (x - reference).abs();
         places.sort_by(|a, b| nearest(a).total_cmp(&nearest(b)));
         // The drive point stays, and is where the reference is.
@@ -130,7 +139,17 @@ impl VirtualTest {
             solution.modes.into_iter().filter(|mode| mode.frequency() < self.top).collect();
         let set = ResponseSet::of(all)?;
         let force_db = 20.0 * weakest.log10();
-        Ok(Simulated { test: *self, set, modes, loaded: hz, force_db, assumed_loss: !loss, length })
+        Ok(Simulated {
+            test: *self,
+            set,
+            modes,
+            loaded: hz,
+            force_db,
+            assumed_loss: !loss,
+            held: bat.fixtures().holding(),
+            dashpots: bat.fixtures().damping(),
+            length,
+        })
     }
 
     fn check(&self, bat: &Bat) -> Result<()> {
@@ -155,6 +174,10 @@ impl VirtualTest {
                 let expected = format!("{low} to {high} {unit}");
                 return Err(Error::value(option, format!("{value} {unit}"), expected));
             }
+        }
+        if let Some(x) = self.reference.filter(|x| is_point(bat, *x)) {
+            let found = format!("{x} m, where the bat ends in a point");
+            return Err(Error::value("--reference", found, "a place with a radius"));
         }
         Ok(())
     }
@@ -259,6 +282,11 @@ impl VirtualTest {
     }
 }
 
+/// Whether the bat has no radius at x (m).
+fn is_point(bat: &Bat, x: f64) -> bool {
+    bat.profile().at(x).outer == 0.0
+}
+
 /// A complex normal number of mean square 1.
 fn normal(seed: u64, k: usize, l: usize) -> c64 {
     let share = |which: u64| {
@@ -269,11 +297,18 @@ fn normal(seed: u64, k: usize, l: usize) -> c64 {
 }
 
 impl Simulated {
+    /// Those of the found modes that are none of the bat's.
+    pub fn false_modes<'a>(&self, found: &'a Identified) -> Vec<&'a SharedMode> {
+        let taken: Vec<usize> = self.matched(found).iter().flatten().map(|one| one.0).collect();
+        let all = found.modes.iter().enumerate().filter(|(k, _)| !taken.contains(k));
+        all.map(|(_, mode)| mode).collect()
+    }
+
     /// For every mode, the index of the mode that was found, and the MAC of its shape.
     pub fn matched(&self, found: &Identified) -> Vec<Option<(usize, f64)>> {
         let mut taken = vec![];
         let one = |mode: &Mode| {
-            let like = |(k, other): (usize, &crate::identify::modes::SharedMode)| {
+            let like = |(k, other): (usize, &SharedMode)| {
                 let near = (other.frequency.value / mode.frequency() - 1.0).abs() < 0.05;
                 let both = self.set.points.iter().zip(&other.shape);
                 let both = both.filter_map(|(place, v)| {
@@ -292,12 +327,12 @@ impl Simulated {
     }
 
     /// The place of the reference that shows the faintest wanted mode best, and that mode's share of its largest
-    /// deflection there; at least 2 % of the length from an end, where a hammer slips.
+    /// deflection there; not at the edge.
     pub fn reference(&self) -> [f64; 2] {
         let least = |x: f64| {
             self.modes.iter().map(|mode| mode.shape.deflection(x).abs()).fold(1.0, f64::min)
         };
-        let places = self.places(0.02).map(|x| [x, least(x)]);
+        let places = self.places(EDGE).map(|x| [x, least(x)]);
         places.max_by(|a, b| a[1].total_cmp(&b[1])).unwrap_or_default()
     }
 

@@ -26,6 +26,8 @@ pub struct ToneLabel {
     pub computed: Option<f64>,
     /// The chance that the label is right.
     pub sure: f64,
+    /// Whether modes were tried for it; of wood, the loudest tones are labelled.
+    pub tried: bool,
 }
 
 /// A given label: the tone near that frequency (Hz) is that bending mode, or not a mode.
@@ -44,6 +46,8 @@ pub struct Tapped {
     pub loss: Option<Within>,
     /// The reason why the modes of the wall of a hollow bat are not known.
     pub unsolved: Option<String>,
+    /// Largest share by which a recorded tone is higher than with constant moduli.
+    pub raised: f64,
 }
 
 impl Tapped {
@@ -92,13 +96,16 @@ impl Tapped {
         let readings = BatReadings { lines, priors, ..BatReadings::default() };
         let plan = CalibrationPlan { split: None, held };
         let found = calibrated(bat, readings, &plan)?;
+        let stiffer: Vec<f64> = taken.iter().map(|k| heard[*k].stiffer).collect();
+        let found = found.map(|found| or_constant(bat, found, &plan, &stiffer)).transpose()?;
         let margin = |k: usize| match &wall {
             Some(wall) => Some(wall.margins[k]),
             None => found.as_ref().and_then(|found| found.labels.margin),
         };
         let of_wall = |k: usize| match (known[k], on_wall(k)) {
             (None, Some((mode, hz, chi2))) => {
-                ToneLabel { mode: Some(mode), computed: Some(hz), sure: sure(margin(k), chi2) }
+                let sure = sure(margin(k), chi2);
+                ToneLabel { mode: Some(mode), computed: Some(hz), sure, tried: true }
             }
             _ => ToneLabel::default(),
         };
@@ -108,6 +115,13 @@ impl Tapped {
                 labels[*k] = of_wood(found, *mode, margin(*k), known[*k] == Some(*mode));
             }
         }
+        for (k, label) in labels.iter_mut().enumerate() {
+            label.tried = wall.is_some() || known[k].is_some() || taken.contains(&k);
+        }
+        let over = |(line, label): (&HeardLine, &ToneLabel)| {
+            Some(line.frequency.value * line.stiffer / label.computed? - 1.0)
+        };
+        let raised = heard.iter().zip(&labels).filter_map(over).fold(0.0, f64::max);
         let second = match wall {
             Some(wall) => wall.second,
             None => found.as_ref().and_then(|found| second_of(found, &taken, heard.len())),
@@ -120,15 +134,17 @@ impl Tapped {
             None => found,
         };
         let labels = of_tones(&heard, &labels, analysis.tones.len());
-        Ok(Self { labels, second, wood, loss: loss.map(|(loss, _)| loss), unsolved })
+        let loss = loss.map(|(loss, _)| loss);
+        Ok(Self { labels, second, wood, loss, unsolved, raised })
     }
 
     /// Whether the tones fit the bat: they agree with its wood, no other labels come near, and at least half of the
-    /// tones are modes of it.
+    /// tones that were tried are modes of it.
     pub fn fits(&self) -> bool {
         let known = self.labels.iter().filter(|label| label.mode.is_some()).count();
+        let tried = self.labels.iter().filter(|label| label.tried).count();
         let near = self.second.as_ref().is_some_and(|second| second.margin < SURE);
-        self.wood.as_ref().is_some_and(|wood| wood.fits) && !near && 2 * known >= self.labels.len()
+        self.wood.as_ref().is_some_and(|wood| wood.fits) && !near && 2 * known >= tried
     }
 
     /// Whether a label may well be another one.
@@ -206,6 +222,29 @@ fn calibrated(
     }
 }
 
+/// The wood with intervals that include moduli which are constant: stiffening is a law of many woods, not a measurement
+/// of this one. `stiffer` is the factor of every line.
+fn or_constant(
+    bat: &Bat,
+    found: Calibration,
+    plan: &CalibrationPlan,
+    stiffer: &[f64],
+) -> Result<Calibration> {
+    if stiffer.iter().all(|by| *by == 1.0) {
+        return Ok(found);
+    }
+    let mut readings = found.readings.clone();
+    for ((line, mode), by) in readings.lines.iter_mut().zip(&found.labels.taken).zip(stiffer) {
+        (line.mode, line.frequency.value) = (*mode, by * line.frequency.value);
+    }
+    readings.lines.retain(|line| line.mode.is_some());
+    let constant = calibrated(bat, readings, plan)?;
+    Ok(match constant {
+        Some(constant) => found.as_wide_as(&constant),
+        None => found,
+    })
+}
+
 /// The probability that a label is right, from the additional cost of the next labels, and from the distance of the
 /// tone's cost below the price of a tone that is not a mode.
 fn sure(margin: Option<f64>, chi2: f64) -> f64 {
@@ -219,7 +258,7 @@ fn of_wood(found: &Calibration, mode: Option<usize>, margin: Option<f64>, told: 
     let chi2 = datum.map_or(0.0, |one| one.residual_sd.powi(2));
     let sure = if told { 1.0 } else { sure(margin, chi2) };
     let computed = datum.map(|one| one.computed);
-    ToneLabel { mode: Some(BatMode::Bending { order }), computed, sure }
+    ToneLabel { mode: Some(BatMode::Bending { order }), computed, sure, tried: true }
 }
 
 fn second_of(found: &Calibration, taken: &[usize], lines: usize) -> Option<NextLabels> {
