@@ -90,7 +90,7 @@ fn a_bat_that_rings_is_heard_again() {
         assert!(low <= note && note <= high, "{note}: {:#}", tones[0]);
     }
     let untried = tones.iter().filter(|tone| tone["tried"] == false);
-    let text = folder.run(&["tap", "bat.json", "taps.wav"]).stdout;
+    let text = folder.run(&["tap", "bat.json", "taps.wav", "--full"]).stdout;
     let text = String::from_utf8(text).unwrap();
     assert!(tones.len() > 10, "{}", tones.len());
     assert_eq!(untried.count(), tones.len() - 10);

@@ -23,10 +23,6 @@ const DEAF: f64 = 0.1;
 /// A hammer whose force spectrum falls by more within the band (dB) is too soft.
 const WEAK: f64 = -20.0;
 
-const DASHPOTS: &str = "Hands and absorbers with damping make modes complex, which the fit does not describe: \
-                        frequencies are off by about the square of the damping ratio, beyond the intervals, and \
-                        strongly damped modes are missed.";
-
 /// A set of responses and its modes.
 pub struct IdentifyReport<'a> {
     /// The responses.
@@ -139,21 +135,26 @@ impl IdentifyReport<'_> {
         let [place, least] = test.reference();
         let fixed = self.set.fixed();
         let hang = format!("Hang the bat at {hang} and {other}: the modes move least there.");
-        let mut all = if test.held { vec![] } else { vec![one("hang", hang)] };
+        let mut all = if test.bat.fixtures().holding() { vec![] } else { vec![one("hang", hang)] };
         let text = format!(
             "Put the {fixed} at {}: every mode has {} of its largest deflection there, or more.",
             at(place),
             percent(least, 0)
         );
         all.push(one("reference", text));
-        let noise: Vec<String> =
-            test.false_modes(self.found).iter().map(|mode| frequency(&mode.frequency)).collect();
+        let known: Vec<usize> =
+            test.matched(self.found).iter().flatten().map(|one| one.0).collect();
+        let noise = self.found.modes.iter().enumerate().filter(|(k, _)| !known.contains(k));
+        let noise = noise.filter(|(_, mode)| mode.frequency.value < test.test.top);
+        let noise: Vec<String> = noise.map(|(_, mode)| frequency(&mode.frequency)).collect();
         if !noise.is_empty() {
             let text = format!("No modes of the bat, but of the noise: {}.", noise.join(", "));
             all.push(one("false_modes", text));
         }
-        if test.dashpots {
-            all.push(one("dashpots", DASHPOTS.to_owned()));
+        if test.bat.fixtures().damping() {
+            let text = "Hands and absorbers with damping make modes complex, which the fit does not describe: no \
+                        interval holds.";
+            all.push(one("dashpots", text.to_owned()));
         }
         let own = self.set.references[0].x;
         let deaf = test.modes.iter().filter(|mode| mode.shape.deflection(own).abs() < DEAF);
@@ -170,7 +171,7 @@ impl IdentifyReport<'_> {
             );
             all.push(one("weak_force", text));
         }
-        if test.assumed_loss {
+        if !test.bat.lossy() {
             let text = format!("The bat's materials have no loss factor: {ASSUMED_LOSS} is taken.");
             all.push(one("loss_factor", text));
         }
@@ -275,7 +276,7 @@ impl IdentifyReport<'_> {
                 window_s: test.test.window,
                 seed: test.test.seed,
                 modes: self.planned(test),
-                hang_m: if test.held { vec![] } else { test.hang().to_vec() },
+                hang_m: if test.bat.fixtures().holding() { vec![] } else { test.hang().to_vec() },
                 reference_m: test.reference()[0],
                 reference_least: test.reference()[1],
                 force_db: test.force_db,

@@ -167,12 +167,16 @@ impl TapReport<'_> {
         if !tapped.fits() {
             all.push(UNFIT.to_owned());
         }
-        if tapped.raised > LEAST_RAISED {
+        let tones = self.analysis.tones.iter().zip(&tapped.labels);
+        let raised =
+            tones.filter_map(|(tone, label)| Some(tone.pole.hz * label.stiffer / label.computed?));
+        let raised = raised.fold(1.0, f64::max) - 1.0;
+        if tapped.loss.is_some() && raised > LEAST_RAISED {
             let lowest = significant(self.analysis.tones[0].pole.hz, 4);
             all.push(format!(
                 "The material is that at {lowest} Hz, where its loss factor stiffens it least; the intervals include \
                  that it does not. Other verbs take it as constant: their tones are up to {} lower.",
-                percent(tapped.raised, 1)
+                percent(raised, 1)
             ));
         }
         if tapped.loss.is_some_and(|loss| half(&loss) > WIDE) {

@@ -263,17 +263,15 @@ impl Calibration {
     /// The same wood, its intervals wider on both sides by its difference from that of another fit.
     #[must_use]
     pub fn as_wide_as(mut self, other: &Self) -> Self {
-        let mut factors = vec![];
-        for (one, other) in self.parameters.iter_mut().zip(&other.parameters) {
+        for (k, other) in other.parameters.iter().enumerate() {
+            let one = &mut self.parameters[k];
             let apart = (other.value / one.value).ln().abs();
-            one.interval95[0] *= (-apart).exp();
-            one.interval95[1] *= apart.exp();
+            let [low, high] = one.interval95;
+            one.interval95 = [low * (-apart).exp(), high * apart.exp()];
             let factor = 1.0 + apart / (NINETY_FIVE * one.relative_sd.max(f64::EPSILON));
             one.relative_sd *= factor;
-            factors.push(factor);
-        }
-        for (row, by) in self.covariance.iter_mut().zip(&factors) {
-            row.iter_mut().zip(&factors).for_each(|(one, factor)| *one *= by * factor);
+            self.covariance[k].iter_mut().for_each(|own| *own *= factor);
+            self.covariance.iter_mut().for_each(|row| row[k] *= factor);
         }
         self
     }

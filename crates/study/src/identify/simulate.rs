@@ -75,14 +75,8 @@ pub struct Simulated {
     pub loaded: Vec<f64>,
     /// Weakest spectrum of the force in the band, relative to the strongest (dB).
     pub force_db: f64,
-    /// Whether a loss factor had to be assumed.
-    pub assumed_loss: bool,
-    /// Whether the bat is held, so that it does not hang.
-    pub held: bool,
-    /// Whether dashpots damp it.
-    pub dashpots: bool,
-    /// Length of the bat (m).
-    length: f64,
+    /// The bat, without the masses.
+    pub bat: Bat,
 }
 
 impl VirtualTest {
@@ -93,10 +87,7 @@ impl VirtualTest {
     /// [`Error::Value`] for an impossible test; those of [`solve`].
     pub fn of(&self, bat: &Bat) -> Result<Simulated> {
         self.check(bat)?;
-        let length = bat.length();
-        // A point bears neither hammer nor accelerometer.
-        let margins = [0.0, length].map(|x| if is_point(bat, x) { EDGE * length } else { 0.0 });
-        let [first, last] = [margins[0], length - margins[1]];
+        let [first, last] = ends(bat);
         let reference = self.reference.unwrap_or(last);
         let step = (last - first) / (self.points - 1) as f64;
         let mut places: Vec<f64> = (0..self.points).map(|k| first + step * k as f64).collect();
@@ -139,20 +130,11 @@ impl VirtualTest {
             solution.modes.into_iter().filter(|mode| mode.frequency() < self.top).collect();
         let set = ResponseSet::of(all)?;
         let force_db = 20.0 * weakest.log10();
-        Ok(Simulated {
-            test: *self,
-            set,
-            modes,
-            loaded: hz,
-            force_db,
-            assumed_loss: !loss,
-            held: bat.fixtures().holding(),
-            dashpots: bat.fixtures().damping(),
-            length,
-        })
+        Ok(Simulated { test: *self, set, modes, loaded: hz, force_db, bat: bat.into_owned() })
     }
 
     fn check(&self, bat: &Bat) -> Result<()> {
+        let [first, last] = ends(bat);
         let most = self.points.saturating_sub(3);
         let all = format!("{} at most, as many as there are points", self.points);
         for (option, count, range, expected) in [
@@ -168,16 +150,12 @@ impl VirtualTest {
             ("--hammer", self.hammer, "kg", [0.01, 2.0]),
             ("--tip", self.tip, "N/m", [1e3, 1e10]),
             ("--to-hz", self.top, "Hz", [10.0, 20_000.0]),
-            ("--reference", self.reference.unwrap_or(0.0), "m", [0.0, bat.length()]),
+            ("--reference", self.reference.unwrap_or(last), "m", [first, last]),
         ] {
             if !(low..=high).contains(&value) {
                 let expected = format!("{low} to {high} {unit}");
                 return Err(Error::value(option, format!("{value} {unit}"), expected));
             }
-        }
-        if let Some(x) = self.reference.filter(|x| is_point(bat, *x)) {
-            let found = format!("{x} m, where the bat ends in a point");
-            return Err(Error::value("--reference", found, "a place with a radius"));
         }
         Ok(())
     }
@@ -282,9 +260,10 @@ impl VirtualTest {
     }
 }
 
-/// Whether the bat has no radius at x (m).
-fn is_point(bat: &Bat, x: f64) -> bool {
-    bat.profile().at(x).outer == 0.0
+/// The ends of a bat (m from the knob end), or places near them: a point bears neither hammer nor accelerometer.
+fn ends(bat: &Bat) -> [f64; 2] {
+    let near = |[end, near]: [f64; 2]| if bat.profile().at(end).outer > 0.0 { end } else { near };
+    [[0.0, EDGE], [1.0, 1.0 - EDGE]].map(|places| near(places.map(|x| x * bat.length())))
 }
 
 /// A complex normal number of mean square 1.
@@ -297,13 +276,6 @@ fn normal(seed: u64, k: usize, l: usize) -> c64 {
 }
 
 impl Simulated {
-    /// Those of the found modes that are none of the bat's.
-    pub fn false_modes<'a>(&self, found: &'a Identified) -> Vec<&'a SharedMode> {
-        let taken: Vec<usize> = self.matched(found).iter().flatten().map(|one| one.0).collect();
-        let all = found.modes.iter().enumerate().filter(|(k, _)| !taken.contains(k));
-        all.map(|(_, mode)| mode).collect()
-    }
-
     /// For every mode, the index of the mode that was found, and the MAC of its shape.
     pub fn matched(&self, found: &Identified) -> Vec<Option<(usize, f64)>> {
         let mut taken = vec![];
@@ -345,13 +317,13 @@ impl Simulated {
         };
         [0.0, 0.5].map(|from| {
             let half =
-                self.places(0.05).filter(|x| (from..from + 0.5).contains(&(x / self.length)));
+                self.places(0.05).filter(|x| (from..from + 0.5).contains(&(x / self.bat.length())));
             half.min_by(|a, b| moved(*a).total_cmp(&moved(*b))).unwrap_or_default()
         })
     }
 
     fn places(&self, margin: f64) -> impl Iterator<Item = f64> + '_ {
         let at = move |k: usize| margin + (1.0 - 2.0 * margin) * k as f64 / TRIED as f64;
-        (0..=TRIED).map(move |k| at(k) * self.length)
+        (0..=TRIED).map(move |k| at(k) * self.bat.length())
     }
 }

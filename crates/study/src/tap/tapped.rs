@@ -26,6 +26,8 @@ pub struct ToneLabel {
     pub computed: Option<f64>,
     /// The chance that the label is right.
     pub sure: f64,
+    /// Factor by which the loss factor raises the computed frequency.
+    pub stiffer: f64,
     /// Whether modes were tried for it; of wood, the loudest tones are labelled.
     pub tried: bool,
 }
@@ -46,8 +48,6 @@ pub struct Tapped {
     pub loss: Option<Within>,
     /// The reason why the modes of the wall of a hollow bat are not known.
     pub unsolved: Option<String>,
-    /// Largest share by which a recorded tone is higher than with constant moduli.
-    pub raised: f64,
 }
 
 impl Tapped {
@@ -103,11 +103,8 @@ impl Tapped {
             None => found.as_ref().and_then(|found| found.labels.margin),
         };
         let of_wall = |k: usize| match (known[k], on_wall(k)) {
-            (None, Some((mode, hz, chi2))) => {
-                let sure = sure(margin(k), chi2);
-                ToneLabel { mode: Some(mode), computed: Some(hz), sure, tried: true }
-            }
-            _ => ToneLabel::default(),
+            (None, Some((mode, hz, chi2))) => labelled(Some(mode), Some(hz), sure(margin(k), chi2)),
+            _ => ToneLabel { tried: wall.is_some() || known[k].is_some(), ..Default::default() },
         };
         let mut labels: Vec<ToneLabel> = (0..heard.len()).map(of_wall).collect();
         if let Some(found) = &found {
@@ -115,13 +112,6 @@ impl Tapped {
                 labels[*k] = of_wood(found, *mode, margin(*k), known[*k] == Some(*mode));
             }
         }
-        for (k, label) in labels.iter_mut().enumerate() {
-            label.tried = wall.is_some() || known[k].is_some() || taken.contains(&k);
-        }
-        let over = |(line, label): (&HeardLine, &ToneLabel)| {
-            Some(line.frequency.value * line.stiffer / label.computed? - 1.0)
-        };
-        let raised = heard.iter().zip(&labels).filter_map(over).fold(0.0, f64::max);
         let second = match wall {
             Some(wall) => wall.second,
             None => found.as_ref().and_then(|found| second_of(found, &taken, heard.len())),
@@ -134,8 +124,7 @@ impl Tapped {
             None => found,
         };
         let labels = of_tones(&heard, &labels, analysis.tones.len());
-        let loss = loss.map(|(loss, _)| loss);
-        Ok(Self { labels, second, wood, loss, unsolved, raised })
+        Ok(Self { labels, second, wood, loss: loss.map(|(loss, _)| loss), unsolved })
     }
 
     /// Whether the tones fit the bat: they agree with its wood, no other labels come near, and at least half of the
@@ -230,9 +219,6 @@ fn or_constant(
     plan: &CalibrationPlan,
     stiffer: &[f64],
 ) -> Result<Calibration> {
-    if stiffer.iter().all(|by| *by == 1.0) {
-        return Ok(found);
-    }
     let mut readings = found.readings.clone();
     for ((line, mode), by) in readings.lines.iter_mut().zip(&found.labels.taken).zip(stiffer) {
         (line.mode, line.frequency.value) = (*mode, by * line.frequency.value);
@@ -253,12 +239,16 @@ fn sure(margin: Option<f64>, chi2: f64) -> f64 {
 }
 
 fn of_wood(found: &Calibration, mode: Option<usize>, margin: Option<f64>, told: bool) -> ToneLabel {
-    let Some(order) = mode else { return ToneLabel::default() };
+    let Some(order) = mode else { return labelled(None, None, 0.0) };
     let datum = found.data.iter().find(|one| one.datum.kind == DatumKind::Frequency(order));
     let chi2 = datum.map_or(0.0, |one| one.residual_sd.powi(2));
     let sure = if told { 1.0 } else { sure(margin, chi2) };
     let computed = datum.map(|one| one.computed);
-    ToneLabel { mode: Some(BatMode::Bending { order }), computed, sure, tried: true }
+    labelled(Some(BatMode::Bending { order }), computed, sure)
+}
+
+fn labelled(mode: Option<BatMode>, computed: Option<f64>, sure: f64) -> ToneLabel {
+    ToneLabel { mode, computed, sure, tried: true, stiffer: 1.0 }
 }
 
 fn second_of(found: &Calibration, taken: &[usize], lines: usize) -> Option<NextLabels> {
@@ -275,7 +265,8 @@ fn of_tones(heard: &[HeardLine], labels: &[ToneLabel], tones: usize) -> Vec<Tone
     let mut all = vec![ToneLabel::default(); tones];
     for (line, label) in heard.iter().zip(labels) {
         for k in &line.tones {
-            all[*k] = ToneLabel { computed: label.computed.map(|hz| hz * line.stiffer), ..*label };
+            let (stiffer, computed) = (line.stiffer, label.computed.map(|hz| hz * line.stiffer));
+            all[*k] = ToneLabel { computed, stiffer, ..*label };
         }
     }
     all
