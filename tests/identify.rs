@@ -174,6 +174,7 @@ fn what_is_missing_is_said() {
         (&["--simulate", "bat.json", "--to-hz", "30000"], "10 to 20000 Hz"),
         (&["set.uff", "--simulate", "bat.json"], "it beside --simulate"),
         (&["--simulate", "bat.json", "--points", "2"], "3 to 100"),
+        (&["--simulate", "torpedo", "--reference", "85 cm"], "--reference"),
         (&["--simulate", "bat.json", "--points", "6", "--missing", "4"], "3 at most"),
         (&["--simulate", "bat.json", "--noise", "3"], "-200 to 0 dB"),
         // What the program drew is not blamed on the masses told.
@@ -219,4 +220,49 @@ fn a_virtual_test_says_what_masses_do_and_where_to_hit() {
     let [low, high] = [0, 1].map(|k| hang[k].as_f64().unwrap());
     assert!(low < 0.42 && high > 0.42);
     assert!(told["simulated"]["reference_least"].as_f64().unwrap() > 0.3);
+}
+
+/// A bat that ends in a point is tested up to near the point; its modes are found within 0.01 %.
+#[test]
+fn a_pointed_bat_carries_hammer_and_accelerometers() {
+    let folder = Folder::new("identify_point");
+    for rove in ["hammer", "accelerometers"] {
+        let test =
+            ["identify", "--simulate", "torpedo", "--accelerometer", "0.1 g", "--rove", rove];
+        let told = folder.json(&[&test[..], &["--json", "-"]].concat());
+        let planned = &told["simulated"]["modes"];
+        let [exact, found] = ["frequency_hz", "found_hz"].map(|name| numbers(planned, name));
+        assert!(exact.len() == 4 && apart(&found, &exact) < 1e-4, "{told:#}");
+    }
+}
+
+/// Where a hammer's force vanishes, at another frequency in each place, noise gives no mode.
+#[test]
+fn noise_where_there_is_no_force_is_no_mode() {
+    let folder = Folder::new("identify_force");
+    let test = ["identify", "--simulate", "bbcor_made_up", "--to-hz", "8000", "--json", "-"];
+    let told = folder.json(&test);
+    let planned = &told["simulated"]["modes"];
+    let found = numbers(&told["modes"], "frequency_hz");
+    assert!(told["simulated"]["force_db"].as_f64().unwrap() < -60.0);
+    assert!(apart(&found, &numbers(planned, "frequency_hz")) < 1e-3, "{told:#}");
+    assert!(!told["warnings"].to_string().contains("false_modes"), "{told:#}");
+}
+
+/// A virtual test says that the fit does not describe dashpots, and hangs no bat that is held.
+#[test]
+fn hands_are_said_and_not_hung() {
+    let folder = Folder::new("identify_hands");
+    let hands =
+        r#""grip": { "from": 0, "to": "6 in", "stiffness": 3e4, "damping": 300 }, "material""#;
+    folder.write("hands.json", LOSSY.replace(r#""material""#, hands));
+    let test = ["identify", "--simulate", "hands.json", "--to-hz", "1500", "--json", "-"];
+    let told = folder.json(&test);
+    let warnings = told["warnings"].as_array().unwrap();
+    let said = |code: &str| warnings.iter().any(|one| one["code"] == code);
+    assert!(said("dashpots") && !said("hang"), "{told:#}");
+    assert_eq!(told["simulated"]["hang_m"].as_array().unwrap().len(), 0);
+    let (_, free) = tested("identify_hung", &[]);
+    let codes = free["warnings"].to_string();
+    assert!(codes.contains("\"hang\"") && !codes.contains("dashpots"), "{codes}");
 }

@@ -9,7 +9,8 @@ use sweetspot::base::number::percent;
 use sweetspot::files::document::Document;
 use sweetspot::files::json_node::Node;
 use sweetspot::{Bat, Material, Result};
-use sweetspot_study::calibrate::calibration::{Calibration, Estimated, Verdict};
+use sweetspot_study::calibrate::calibration::{Calibration, Estimated, NINETY_FIVE, Verdict};
+use sweetspot_study::calibrate::fit::{DatumKind, Residual};
 
 /// Members that a calibrated file replaces or omits, because densities and moduli are known now.
 const ANEW: [&str; 4] = ["source", "comment", "material", "weighed"];
@@ -59,15 +60,18 @@ pub fn text((bat, before): (&Bat, &str), found: &Calibration, measured: &str) ->
 }
 
 /// The mass and first frequency of the calibrated wood, which give the uncertainty of its density and stiffness. `None`
-/// if neither was measured.
+/// if neither was measured, or the fit is beyond the 95 % interval of the reading.
 fn weighed(found: &Calibration) -> Option<Value> {
     let mut weighed = Map::new();
-    if found.readings.mass.is_some() {
-        weighed.insert("mass".to_owned(), json!(found.bat.unedited().inertia().mass));
-    }
-    let first = found.first_frequency.filter(|_| found.labels.taken.contains(&Some(1)));
-    if let Some(first) = first {
-        weighed.insert("first_bending_hz".to_owned(), json!(first));
+    let known = [(DatumKind::Mass, "mass"), (DatumKind::Frequency(1), "first_bending_hz")];
+    for (kind, key) in known {
+        let agrees = |one: &&Residual| {
+            let off = (one.datum.measured - one.computed).abs();
+            one.datum.kind == kind && off <= NINETY_FIVE * one.datum.reading_sd
+        };
+        if let Some(one) = found.data.iter().find(agrees) {
+            weighed.insert(key.to_owned(), json!(one.computed));
+        }
     }
     (!weighed.is_empty()).then_some(Value::Object(weighed))
 }

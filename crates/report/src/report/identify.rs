@@ -132,20 +132,29 @@ impl IdentifyReport<'_> {
         let [hang, other] = test.hang().map(at);
         let [place, least] = test.reference();
         let fixed = self.set.fixed();
-        let mut all = vec![
-            Said::new(
-                "hang",
-                format!("Hang the bat at {hang} and {other}: the modes move least there."),
-            ),
-            Said::new(
-                "reference",
-                format!(
-                    "Put the {fixed} at {}: every mode has {} of its largest deflection there, or more.",
-                    at(place),
-                    percent(least, 0)
-                ),
-            ),
-        ];
+        let hang = format!("Hang the bat at {hang} and {other}: the modes move least there.");
+        let mut all =
+            if test.bat.fixtures().holding() { vec![] } else { vec![Said::new("hang", hang)] };
+        let text = format!(
+            "Put the {fixed} at {}: every mode has {} of its largest deflection there, or more.",
+            at(place),
+            percent(least, 0)
+        );
+        all.push(Said::new("reference", text));
+        let known: Vec<usize> =
+            test.matched(self.found).iter().flatten().map(|one| one.0).collect();
+        let noise = self.found.modes.iter().enumerate().filter(|(k, _)| !known.contains(k));
+        let noise = noise.filter(|(_, mode)| mode.frequency.value < test.test.top);
+        let noise: Vec<String> = noise.map(|(_, mode)| frequency(&mode.frequency)).collect();
+        if !noise.is_empty() {
+            let text = format!("No modes of the bat, but of the noise: {}.", noise.join(", "));
+            all.push(Said::new("false_modes", text));
+        }
+        if test.bat.fixtures().damping() {
+            let text = "Hands and absorbers with damping make modes complex, which the fit does not describe: no \
+                        interval holds.";
+            all.push(Said::new("dashpots", text.to_owned()));
+        }
         let own = self.set.references[0].x;
         let deaf = test.modes.iter().filter(|mode| mode.shape.deflection(own).abs() < DEAF);
         let deaf: Vec<String> = deaf.map(|mode| mode.order.to_string()).collect();
@@ -161,7 +170,7 @@ impl IdentifyReport<'_> {
             );
             all.push(Said::new("weak_force", text));
         }
-        if test.assumed_loss {
+        if !test.bat.lossy() {
             let text = format!("The bat's materials have no loss factor: {ASSUMED_LOSS} is taken.");
             all.push(Said::new("loss_factor", text));
         }
@@ -264,7 +273,7 @@ impl IdentifyReport<'_> {
                 window_s: test.test.window,
                 seed: test.test.seed,
                 modes: self.planned(test),
-                hang_m: test.hang().to_vec(),
+                hang_m: if test.bat.fixtures().holding() { vec![] } else { test.hang().to_vec() },
                 reference_m: test.reference()[0],
                 reference_least: test.reference()[1],
                 force_db: test.force_db,

@@ -27,6 +27,8 @@ use sweetspot_tap::recording::{Recording, Unreadable};
 
 /// Beyond this half-width an interval is shown as "about".
 const ABOUT: f64 = 0.4;
+/// Share by which recorded tones may be higher than those of other verbs, without a word.
+const LEAST_RAISED: f64 = 5e-4;
 /// Half-width of the loss factor above which moving the phone is advised.
 const WIDE: f64 = 0.1;
 
@@ -99,6 +101,7 @@ impl TapReport<'_> {
         let (tone, label) = (&self.analysis.tones[k], self.label(k));
         let is = match (self.tapped, label.mode) {
             (None, _) => String::new(),
+            (Some(_), None) if !label.tried => "not labelled".to_owned(),
             (Some(_), None) => "no mode of this bat".to_owned(),
             (Some(_), Some(mode)) => named(mode),
         };
@@ -163,6 +166,18 @@ impl TapReport<'_> {
         if !tapped.fits() {
             all.push(UNFIT.to_owned());
         }
+        let tones = self.analysis.tones.iter().zip(&tapped.labels);
+        let raised =
+            tones.filter_map(|(tone, label)| Some(tone.pole.hz * label.stiffer / label.computed?));
+        let raised = raised.fold(1.0, f64::max) - 1.0;
+        if tapped.loss.is_some() && raised > LEAST_RAISED {
+            let lowest = significant(self.analysis.tones[0].pole.hz, 4);
+            all.push(format!(
+                "The material is that at {lowest} Hz, where its loss factor stiffens it least; the intervals include \
+                 that it does not. Other verbs take it as constant: their tones are up to {} lower.",
+                percent(raised, 1)
+            ));
+        }
         if tapped.loss.is_some_and(|loss| half(&loss) > WIDE) {
             all.push(NEXT.to_owned());
         }
@@ -202,6 +217,7 @@ impl TapReport<'_> {
             level_db: tone.level,
             twin_hz: tone.twin,
             mode: label.mode,
+            tried: label.tried,
             computed_hz: label.computed,
             sure: label.mode.map(|_| label.sure),
         }

@@ -25,7 +25,7 @@ pub struct TapFile {
     /// The second best labels; null where no others come near or none were sought.
     pub second: Option<NextLabels>,
     /// The wood by these tones, with the density of the bat file and the stiffness at the lowest tone; null where no
-    /// tone is a bending mode.
+    /// tone is a bending mode. Its intervals include that the loss factor may not stiffen it.
     pub wood: Option<Calibration>,
     /// Upper limit of the loss factor of the wood: that of the bending tone with the least damping. Null where the loss
     /// factors are not reliable.
@@ -101,8 +101,10 @@ pub struct TapTone {
     pub level_db: f64,
     /// The other tone of a pair, of the other plane of the grain (Hz).
     pub twin_hz: Option<f64>,
-    /// Which mode it is; null where it is no mode of this bat.
+    /// Which mode it is; null where it is no mode of this bat, or was not tried.
     pub mode: Option<BatMode>,
+    /// Whether modes were tried for it: of wood, the ten loudest tones are labelled, and those that were told.
+    pub tried: bool,
     /// The frequency of the bat with the wood that was found (Hz).
     pub computed_hz: Option<f64>,
     /// The chance that the mode is right, 0 to 1; null without one.

@@ -141,9 +141,6 @@ pub struct Calibration {
     /// Whether the readings fit the fitted wood, whatever the labels.
     #[serde(skip)]
     pub readings_agree: bool,
-    /// The first frequency of the fitted wood (Hz), if it was computed.
-    #[serde(skip)]
-    pub first_frequency: Option<f64>,
     /// Whether G is the typical one of its kind, because the file has none.
     #[serde(skip)]
     pub typical_shear: bool,
@@ -239,7 +236,6 @@ impl Calibration {
             loss_factors: readings.ring_down.iter().map(LossFound::of).collect(),
             next: proposals(&search, &fit, &parts),
             readings_agree,
-            first_frequency: fit.shown.frequencies.first().map(|first| first.value),
             typical_shear: wood.typical_shear,
             material: bat.material().name.clone(),
             bat: wood.of(&fit.logs)?,
@@ -260,6 +256,22 @@ impl Calibration {
     pub fn with_ring_down(mut self, tone: RingDown) -> Self {
         self.loss_factors.push(LossFound::of(&tone));
         self.readings.ring_down.push(tone);
+        self
+    }
+
+    /// The same wood, its intervals wider on both sides by its difference from that of another fit.
+    #[must_use]
+    pub fn as_wide_as(mut self, other: &Self) -> Self {
+        for (k, other) in other.parameters.iter().enumerate() {
+            let one = &mut self.parameters[k];
+            let apart = (other.value / one.value).ln().abs();
+            let [low, high] = one.interval95;
+            one.interval95 = [low * (-apart).exp(), high * apart.exp()];
+            let factor = 1.0 + apart / (NINETY_FIVE * one.relative_sd.max(f64::EPSILON));
+            one.relative_sd *= factor;
+            self.covariance[k].iter_mut().for_each(|own| *own *= factor);
+            self.covariance.iter_mut().for_each(|row| row[k] *= factor);
+        }
         self
     }
 

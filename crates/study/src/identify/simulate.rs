@@ -13,7 +13,7 @@ use crate::engine::{
     Attachment, Bat, Error, Frf, Mode, Prepared, Request, ResponseKind, Result, RigidBat, prepare,
     solve,
 };
-use crate::identify::modes::Identified;
+use crate::identify::modes::{Identified, SharedMode};
 use crate::identify::set::ResponseSet;
 use crate::many::hash;
 use crate::measured::mac::mac;
@@ -30,7 +30,7 @@ pub struct VirtualTest {
     pub missing: usize,
     /// Number of places where the hammer bounces.
     pub double_hits: usize,
-    /// Position of the fixed part (m from the knob end); `None` for the tip.
+    /// Position of the fixed part (m from the knob end); `None` for the tip, or the last place if it is a point.
     pub reference: Option<f64>,
     /// Mass of each accelerometer (kg).
     pub accelerometer: f64,
@@ -58,6 +58,8 @@ pub const ASSUMED_LOSS: f64 = 0.01;
 const EXACT: f64 = 1e-8;
 /// Share of the force on a line without force.
 const SILENT: f64 = 1e-4;
+/// Share of the length from an end where a hammer slips.
+const EDGE: f64 = 0.02;
 /// Places that are tried for the reference and for hanging.
 const TRIED: usize = 200;
 
@@ -73,10 +75,8 @@ pub struct Simulated {
     pub loaded: Vec<f64>,
     /// Weakest spectrum of the force in the band, relative to the strongest (dB).
     pub force_db: f64,
-    /// Whether a loss factor had to be assumed.
-    pub assumed_loss: bool,
-    /// Length of the bat (m).
-    length: f64,
+    /// The bat, without the masses.
+    pub bat: Bat,
 }
 
 impl VirtualTest {
@@ -87,10 +87,10 @@ impl VirtualTest {
     /// [`Error::Value`] for an impossible test; those of [`solve`].
     pub fn of(&self, bat: &Bat) -> Result<Simulated> {
         self.check(bat)?;
-        let length = bat.length();
-        let reference = self.reference.unwrap_or(length);
-        let last = (self.points - 1) as f64;
-        let mut places: Vec<f64> = (0..self.points).map(|k| length * k as f64 / last).collect();
+        let [first, last] = ends(bat);
+        let reference = self.reference.unwrap_or(last);
+        let step = (last - first) / (self.points - 1) as f64;
+        let mut places: Vec<f64> = (0..self.points).map(|k| first + step * k as f64).collect();
         let nearest = |x: &f64| (x - reference).abs();
         places.sort_by(|a, b| nearest(a).total_cmp(&nearest(b)));
         // The drive point stays, and is where the reference is.
@@ -130,10 +130,11 @@ impl VirtualTest {
             solution.modes.into_iter().filter(|mode| mode.frequency() < self.top).collect();
         let set = ResponseSet::of(all)?;
         let force_db = 20.0 * weakest.log10();
-        Ok(Simulated { test: *self, set, modes, loaded: hz, force_db, assumed_loss: !loss, length })
+        Ok(Simulated { test: *self, set, modes, loaded: hz, force_db, bat: bat.into_owned() })
     }
 
     fn check(&self, bat: &Bat) -> Result<()> {
+        let [first, last] = ends(bat);
         let most = self.points.saturating_sub(3);
         let all = format!("{} at most, as many as there are points", self.points);
         for (option, count, range, expected) in [
@@ -149,7 +150,7 @@ impl VirtualTest {
             ("--hammer", self.hammer, "kg", [0.01, 2.0]),
             ("--tip", self.tip, "N/m", [1e3, 1e10]),
             ("--to-hz", self.top, "Hz", [10.0, 20_000.0]),
-            ("--reference", self.reference.unwrap_or(0.0), "m", [0.0, bat.length()]),
+            ("--reference", self.reference.unwrap_or(last), "m", [first, last]),
         ] {
             if !(low..=high).contains(&value) {
                 let expected = format!("{low} to {high} {unit}");
@@ -259,6 +260,12 @@ impl VirtualTest {
     }
 }
 
+/// The ends of a bat (m from the knob end), or places near them: a point bears neither hammer nor accelerometer.
+fn ends(bat: &Bat) -> [f64; 2] {
+    let near = |[end, near]: [f64; 2]| if bat.profile().at(end).outer > 0.0 { end } else { near };
+    [[0.0, EDGE], [1.0, 1.0 - EDGE]].map(|places| near(places.map(|x| x * bat.length())))
+}
+
 /// A complex normal number of mean square 1.
 fn normal(seed: u64, k: usize, l: usize) -> c64 {
     let share = |which: u64| {
@@ -273,7 +280,7 @@ impl Simulated {
     pub fn matched(&self, found: &Identified) -> Vec<Option<(usize, f64)>> {
         let mut taken = vec![];
         let one = |mode: &Mode| {
-            let like = |(k, other): (usize, &crate::identify::modes::SharedMode)| {
+            let like = |(k, other): (usize, &SharedMode)| {
                 let near = (other.frequency.value / mode.frequency() - 1.0).abs() < 0.05;
                 let both = self.set.points.iter().zip(&other.shape);
                 let both = both.filter_map(|(place, v)| {
@@ -292,12 +299,12 @@ impl Simulated {
     }
 
     /// The place of the reference that shows the faintest wanted mode best, and that mode's share of its largest
-    /// deflection there; at least 2 % of the length from an end, where a hammer slips.
+    /// deflection there; not at the edge.
     pub fn reference(&self) -> [f64; 2] {
         let least = |x: f64| {
             self.modes.iter().map(|mode| mode.shape.deflection(x).abs()).fold(1.0, f64::min)
         };
-        let places = self.places(0.02).map(|x| [x, least(x)]);
+        let places = self.places(EDGE).map(|x| [x, least(x)]);
         places.max_by(|a, b| a[1].total_cmp(&b[1])).unwrap_or_default()
     }
 
@@ -310,13 +317,13 @@ impl Simulated {
         };
         [0.0, 0.5].map(|from| {
             let half =
-                self.places(0.05).filter(|x| (from..from + 0.5).contains(&(x / self.length)));
+                self.places(0.05).filter(|x| (from..from + 0.5).contains(&(x / self.bat.length())));
             half.min_by(|a, b| moved(*a).total_cmp(&moved(*b))).unwrap_or_default()
         })
     }
 
     fn places(&self, margin: f64) -> impl Iterator<Item = f64> + '_ {
         let at = move |k: usize| margin + (1.0 - 2.0 * margin) * k as f64 / TRIED as f64;
-        (0..=TRIED).map(move |k| at(k) * self.length)
+        (0..=TRIED).map(move |k| at(k) * self.bat.length())
     }
 }

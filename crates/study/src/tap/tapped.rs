@@ -26,6 +26,10 @@ pub struct ToneLabel {
     pub computed: Option<f64>,
     /// The chance that the label is right.
     pub sure: f64,
+    /// Factor by which the loss factor raises the computed frequency.
+    pub stiffer: f64,
+    /// Whether modes were tried for it; of wood, the loudest tones are labelled.
+    pub tried: bool,
 }
 
 /// A given label: the tone near that frequency (Hz) is that bending mode, or not a mode.
@@ -92,15 +96,15 @@ impl Tapped {
         let readings = BatReadings { lines, priors, ..BatReadings::default() };
         let plan = CalibrationPlan { split: None, held };
         let found = calibrated(bat, readings, &plan)?;
+        let stiffer: Vec<f64> = taken.iter().map(|k| heard[*k].stiffer).collect();
+        let found = found.map(|found| or_constant(bat, found, &plan, &stiffer)).transpose()?;
         let margin = |k: usize| match &wall {
             Some(wall) => Some(wall.margins[k]),
             None => found.as_ref().and_then(|found| found.labels.margin),
         };
         let of_wall = |k: usize| match (known[k], on_wall(k)) {
-            (None, Some((mode, hz, chi2))) => {
-                ToneLabel { mode: Some(mode), computed: Some(hz), sure: sure(margin(k), chi2) }
-            }
-            _ => ToneLabel::default(),
+            (None, Some((mode, hz, chi2))) => labelled(Some(mode), Some(hz), sure(margin(k), chi2)),
+            _ => ToneLabel { tried: wall.is_some() || known[k].is_some(), ..Default::default() },
         };
         let mut labels: Vec<ToneLabel> = (0..heard.len()).map(of_wall).collect();
         if let Some(found) = &found {
@@ -124,11 +128,12 @@ impl Tapped {
     }
 
     /// Whether the tones fit the bat: they agree with its wood, no other labels come near, and at least half of the
-    /// tones are modes of it.
+    /// tones that were tried are modes of it.
     pub fn fits(&self) -> bool {
         let known = self.labels.iter().filter(|label| label.mode.is_some()).count();
+        let tried = self.labels.iter().filter(|label| label.tried).count();
         let near = self.second.as_ref().is_some_and(|second| second.margin < SURE);
-        self.wood.as_ref().is_some_and(|wood| wood.fits) && !near && 2 * known >= self.labels.len()
+        self.wood.as_ref().is_some_and(|wood| wood.fits) && !near && 2 * known >= tried
     }
 
     /// Whether a label may well be another one.
@@ -206,6 +211,26 @@ fn calibrated(
     }
 }
 
+/// The wood with intervals that include moduli which are constant: stiffening is a law of many woods, not a measurement
+/// of this one. `stiffer` is the factor of every line.
+fn or_constant(
+    bat: &Bat,
+    found: Calibration,
+    plan: &CalibrationPlan,
+    stiffer: &[f64],
+) -> Result<Calibration> {
+    let mut readings = found.readings.clone();
+    for ((line, mode), by) in readings.lines.iter_mut().zip(&found.labels.taken).zip(stiffer) {
+        (line.mode, line.frequency.value) = (*mode, by * line.frequency.value);
+    }
+    readings.lines.retain(|line| line.mode.is_some());
+    let constant = calibrated(bat, readings, plan)?;
+    Ok(match constant {
+        Some(constant) => found.as_wide_as(&constant),
+        None => found,
+    })
+}
+
 /// The probability that a label is right, from the additional cost of the next labels, and from the distance of the
 /// tone's cost below the price of a tone that is not a mode.
 fn sure(margin: Option<f64>, chi2: f64) -> f64 {
@@ -214,12 +239,16 @@ fn sure(margin: Option<f64>, chi2: f64) -> f64 {
 }
 
 fn of_wood(found: &Calibration, mode: Option<usize>, margin: Option<f64>, told: bool) -> ToneLabel {
-    let Some(order) = mode else { return ToneLabel::default() };
+    let Some(order) = mode else { return labelled(None, None, 0.0) };
     let datum = found.data.iter().find(|one| one.datum.kind == DatumKind::Frequency(order));
     let chi2 = datum.map_or(0.0, |one| one.residual_sd.powi(2));
     let sure = if told { 1.0 } else { sure(margin, chi2) };
     let computed = datum.map(|one| one.computed);
-    ToneLabel { mode: Some(BatMode::Bending { order }), computed, sure }
+    labelled(Some(BatMode::Bending { order }), computed, sure)
+}
+
+fn labelled(mode: Option<BatMode>, computed: Option<f64>, sure: f64) -> ToneLabel {
+    ToneLabel { mode, computed, sure, tried: true, stiffer: 1.0 }
 }
 
 fn second_of(found: &Calibration, taken: &[usize], lines: usize) -> Option<NextLabels> {
@@ -236,7 +265,8 @@ fn of_tones(heard: &[HeardLine], labels: &[ToneLabel], tones: usize) -> Vec<Tone
     let mut all = vec![ToneLabel::default(); tones];
     for (line, label) in heard.iter().zip(labels) {
         for k in &line.tones {
-            all[*k] = ToneLabel { computed: label.computed.map(|hz| hz * line.stiffer), ..*label };
+            let (stiffer, computed) = (line.stiffer, label.computed.map(|hz| hz * line.stiffer));
+            all[*k] = ToneLabel { computed, stiffer, ..*label };
         }
     }
     all
