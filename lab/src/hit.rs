@@ -17,6 +17,7 @@ use sweetspot::modes::hoop::rings;
 use sweetspot::modes::prepared::prepare;
 use sweetspot::modes::solve::{Request, Solution, solve};
 use sweetspot_report::analysis::POINTS;
+use sweetspot_report::parts::Quantity;
 use sweetspot_report::report::{hit_text, trust};
 use sweetspot_study::answers::Answer;
 use sweetspot_study::verdict::Verdict;

@@ -308,7 +308,7 @@ fn everything(analysis: &Analysis, output: &OutputArgs) -> String {
     modes.push(Part::Heading("Nodes"));
     modes.push(Part::List(tables::nodes(bat, solution, 3, units)));
     let why = [hit_text::reason(figures, units), hit_text::beyond(hits, &task.scene, units)];
-    let spot = hit_text::sweet_spot(bat, &figures.spot, units).into_iter();
+    let spot = tables::sweet_spot(bat, &figures.spot, units).into_iter();
     let spot: Vec<Part> = spot.chain(why.into_iter().flatten().map(Part::Text)).collect();
     format!(
         "{}\n{}{}{}\n{}{}{}\n{}{}\n{}{}{}\n{}{}",
@@ -320,7 +320,7 @@ fn everything(analysis: &Analysis, output: &OutputArgs) -> String {
         wrapped(&format!("Proof: {}", accuracy::proof(analysis)), 7),
         advice(analysis),
         hit_text::scene(bat, &task.scene, task.model, units),
-        terminal::parts(&hit_text::impacts(bat, &few, units)),
+        terminal::parts(&tables::impacts(bat, &few, units)),
         hit_text::curve(&hits.impacts, units),
         terminal::parts(&spot),
         terminal::parts(&[Part::Table(tables::figures(figures, units))]),

@@ -146,14 +146,14 @@ fn table(args: &Args, bat: &Bat, trial: Trial, sweep: &Sweep, figures: &Figures)
             true => &sweep.impacts,
             false => &hit_text::some(&sweep.impacts, best),
         };
-        let shown = terminal::parts(&hit_text::impacts(bat, shown, units));
+        let shown = terminal::parts(&tables::impacts(bat, shown, units));
         let [mut sketch, mut more] = [const { String::new() }; 2];
         if full {
             sketch = format!("\n{}", args.output.sketch(bat, &sketch::of_hit(bat, &figures.spot)));
             let tables = [tables::figures(figures, units), tables::moves(bat, figures, units)];
             more = terminal::parts(&tables.map(Part::Table));
         }
-        let spot = terminal::parts(&hit_text::sweet_spot(bat, &figures.spot, units));
+        let spot = terminal::parts(&tables::sweet_spot(bat, &figures.spot, units));
         let why = [hit_text::reason(figures, units), hit_text::beyond(sweep, scene, units)];
         let [why, beyond] = why.map(|text| text.map_or(String::new(), |text| wrapped(&text, 0)));
         [

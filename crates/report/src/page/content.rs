@@ -166,7 +166,7 @@ impl<'a> Report<'a> {
     fn spots(&'a self, units: Units) -> Vec<Part<'a>> {
         let Analysis { bat, figures, .. } = self.analysis;
         match self.hits() {
-            true => hit_text::sweet_spot(bat, &figures.spot, units),
+            true => tables::sweet_spot(bat, &figures.spot, units),
             false => vec![Part::Missing(NOTHING)],
         }
     }

@@ -2,9 +2,9 @@
 
 use std::fmt::Write;
 
-use crate::parts::{Part, Quantity, Units, wrapped};
+use crate::parts::{Quantity, Units, wrapped};
 use crate::report::wall_text::{wall_facts, wall_words};
-use crate::report::{curve, edits, tables};
+use crate::report::{curve, edits};
 use sweetspot::Bat;
 use sweetspot::base::units::gravities;
 use sweetspot::collision::figures::{BarrelSpeed, Figures};
@@ -30,17 +30,12 @@ pub fn letters(impact: &Impact) -> String {
 }
 
 /// A line for every flag that hits have.
-fn legend(impacts: &[Impact]) -> Vec<String> {
+pub fn legend(impacts: &[Impact]) -> Vec<String> {
     let has = |flag: &&(&str, char, &str)| impacts.iter().any(|i| i.flags.contains(&flag.0));
     let line = |(name, letter, words): &(&str, char, &str)| {
         format!("{letter}  {}: {words}", name.replace('_', " "))
     };
     FLAGS.iter().filter(has).map(line).collect()
-}
-
-/// The hits along the barrel, and the meaning of their flags.
-pub fn impacts(bat: &Bat, impacts: &[Impact], units: Units) -> Vec<Part<'static>> {
-    vec![Part::Table(tables::hits(bat, impacts, units)), Part::List(legend(impacts))]
 }
 
 /// Some of many impacts: a few at equal distances, and the nearest to the best place.
@@ -193,18 +188,6 @@ pub fn spot_lines(bat: &Bat, spot: &SweetSpot, units: Units) -> Vec<SpotLine> {
         line("                        to", Some(to), None);
     }
     lines
-}
-
-/// The sweet spot by each definition, from knob and tip.
-pub fn sweet_spot(bat: &Bat, spot: &SweetSpot, units: Units) -> Vec<Part<'static>> {
-    let coarse = spot.looked_every.map(|apart| {
-        Part::Text(format!(
-            "Places were tried every {} only: the bat hits the ball again there, and all places would take more \
-             than about ten times as long as a usual hit. A narrower peak may be missed.",
-            Quantity::Small.said(units, apart)
-        ))
-    });
-    [Part::Table(tables::sweet_spots(bat, spot, units))].into_iter().chain(coarse).collect()
 }
 
 /// The stated figures of a bat: efficiency, BBCOR, effect of an inch, swings.

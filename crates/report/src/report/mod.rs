@@ -1,12 +1,11 @@
 //! How are all results printed and written?
 //!
-//! [`tables`] has the tables of modes and hits, [`text`] and [`hit_text`] what is said about them, [`json`] and [`hit_json`] their documents; the file of a
-//! verb has its screen. Columns shared by pictures and CSV are in [`parts::columns`](crate::parts::columns). Nothing
-//! here computes physics.
+//! [`tables`] has the tables of modes and hits, [`text`] and [`hit_text`] what is said about them, [`json`] and
+//! [`hit_json`] their documents; the file of a verb has its screen. Columns shared by pictures and CSV are in
+//! [`parts::columns`](crate::parts::columns). Nothing here computes physics.
 
 pub mod curve;
 pub mod resolved;
-pub mod json;
 pub mod edits;
 pub mod text;
 pub mod proven;
@@ -17,6 +16,7 @@ pub mod wall_text;
 pub mod hit_text;
 pub mod tables;
 pub mod damped;
+pub mod json;
 pub mod hit_json;
 pub mod bbcor;
 pub mod aftermath;
@@ -35,8 +35,8 @@ pub mod hoop_notes;
 pub mod hoop;
 pub mod whole;
 pub mod calibrate;
-pub mod tap;
 pub mod identify;
+pub mod tap;
 pub mod calibrated_bat;
 pub mod shares;
 pub mod scatter;

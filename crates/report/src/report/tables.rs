@@ -1,8 +1,8 @@
 //! The tables of results, for pages and terminals: modes, sweet spots, energies, figures.
 
 use crate::parts::Quantity::{Energy, Length, Mass, Ratio, Speed, Words};
-use crate::parts::{Cell, Column, Quantity, Scale, Table, Units, fixed};
-use crate::report::hit_text::{STATED, SpotLine, letters, spot_lines, stated};
+use crate::parts::{Cell, Column, Part, Quantity, Scale, Table, Units, fixed};
+use crate::report::hit_text::{STATED, SpotLine, legend, letters, spot_lines, stated};
 use sweetspot::base::number::{signed, significant};
 use sweetspot::collision::figures::{Figures, Moved};
 use sweetspot::collision::sweet_spot::Peak;
@@ -26,19 +26,11 @@ pub fn modes(bat: &Bat, solution: &Solution, units: Units) -> Table {
         }),
         Column::new("f/f1", "", Ratio(3), |(mode, first)| (mode.frequency() / first).into()),
         Column::new("relative error", "", Words, |(mode, _)| within(mode.error.total()).into()),
-        Column::new("modal mass", "", Mass, |(mode, _)| mode.modal_mass.into()),
+        Column::new("modal mass (largest |w| = 1)", "", Mass, |(mode, _)| mode.modal_mass.into()),
     ];
     let first = solution.modes.first().map_or(1.0, Mode::frequency);
     let rows: Vec<ModeRow> = solution.modes.iter().map(|mode| (mode, first)).collect();
-    Table::of(
-        format!(
-            "Bending modes ({}; modal mass for a largest deflection of 1)",
-            bat.fixtures().freedom()
-        ),
-        &columns,
-        &rows,
-        units,
-    )
+    Table::of(format!("Bending modes ({})", bat.fixtures().freedom()), &columns, &rows, units)
 }
 
 /// A relative error.
@@ -131,6 +123,11 @@ pub fn hits(bat: &Bat, impacts: &[Impact], units: Units) -> Table {
     Table::of("Hits along the bat", &columns, &rows, units)
 }
 
+/// The hits along the barrel, and the meaning of their flags.
+pub fn impacts(bat: &Bat, impacts: &[Impact], units: Units) -> Vec<Part<'static>> {
+    vec![Part::Table(hits(bat, impacts, units)), Part::List(legend(impacts))]
+}
+
 /// A hoop mode, and the distance from the tip where it moves most (m).
 pub type HoopRow = (HoopMode, f64);
 
@@ -176,6 +173,18 @@ pub fn sweet_spots(bat: &Bat, spot: &SweetSpot, units: Units) -> Table {
     };
     let rows: Vec<SpotRow> = spot_lines(bat, spot, units).into_iter().map(row).collect();
     Table::of("Sweet spot", &SPOTS, &rows, units)
+}
+
+/// The sweet spot by each definition, from knob and tip.
+pub fn sweet_spot(bat: &Bat, spot: &SweetSpot, units: Units) -> Vec<Part<'static>> {
+    let coarse = spot.looked_every.map(|apart| {
+        Part::Text(format!(
+            "Places were tried every {} only: the bat hits the ball again there, and all places would take more \
+             than about ten times as long as a usual hit. A narrower peak may be missed.",
+            Quantity::Small.said(units, apart)
+        ))
+    });
+    [Part::Table(sweet_spots(bat, spot, units))].into_iter().chain(coarse).collect()
 }
 
 /// The energies of the best hit; empty where no ball is hit.
