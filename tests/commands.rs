@@ -218,17 +218,17 @@ fn a_bat_is_answered_in_the_units_of_its_file_first_by_every_verb() {
     folder.write("inch.json", counted_in("in", 1.0));
     folder.write("metric.json", counted_in("mm", 25.4));
     for (args, us, si) in [
-        (&["modes", "BAT", "-n", "2"][..], "33.00 in", "0.8382 m"),
+        (&["modes", "BAT", "-n", "2"][..], "33.00 in", "83.82 cm"),
         (&["analyze", "BAT"], " mph", " m/s"),
-        (&["analyze", "BAT", "--full"], "33.00 in", "0.8382 m"),
-        (&["hit", "BAT", "--points", "3"], "2.50 in", "0.0635 m"),
-        (&["bbcor", "BAT"], "6.00 in", "0.1524 m"),
-        (&["compare", "BAT", "r161"], "2.50 in", "0.0635 m"),
-        (&["compare", "BAT", "r161", "--full"], "2.50 in", "0.0635 m"),
+        (&["analyze", "BAT", "--full"], "33.00 in", "83.82 cm"),
+        (&["hit", "BAT", "--points", "3"], "2.50 in", "6.35 cm"),
+        (&["bbcor", "BAT"], "6.00 in", "15.24 cm"),
+        (&["compare", "BAT", "r161"], "2.50 in", "6.35 cm"),
+        (&["compare", "BAT", "r161", "--full"], "2.50 in", "6.35 cm"),
         (&["ring", "BAT", "--hit", "0.7"], "27.56 in", "70.00 cm"),
         (&["advise", "BAT", "--full"], " oz in²", " kg m²"),
-        (&["lathe", "BAT"], "2.50 in", "0.0635 m"),
-        (&["frf", "BAT", "--at", "0.1", "--points", "3"], "3.94 in", "0.1000 m"),
+        (&["lathe", "BAT"], "2.50 in", "6.35 cm"),
+        (&["frf", "BAT", "--at", "0.1", "--points", "3"], "3.94 in", "10.00 cm"),
     ] {
         for (file, us_first) in [("inch.json", true), ("metric.json", false)] {
             let args: Vec<&str> =

@@ -44,14 +44,12 @@ pub fn run(args: &Args, bat: Bat) -> Result<Done> {
     }
     let times = times(args, &solution);
     let shapes = ringing.shapes(&x);
-    let frames: Vec<Vec<f64>> = times
-        .iter()
-        .map(|t| {
-            let amplitudes = ringing.amplitudes(&start, *t);
-            let sum = |i: usize| shapes.iter().zip(&amplitudes).map(|(w, a)| a * w[i]).sum();
-            (0..x.len()).map(sum).collect()
-        })
-        .collect();
+    let deflections = |t: &f64| {
+        let amplitudes = ringing.amplitudes(&start, *t);
+        let sum = |i: usize| shapes.iter().zip(&amplitudes).map(|(w, a)| a * w[i]).sum();
+        (0..x.len()).map(sum).collect()
+    };
+    let frames: Vec<Vec<f64>> = times.iter().map(deflections).collect();
     let moved = Motion {
         edits: bat.edits().to_vec(),
         modes: solution.modes.len(),

@@ -44,8 +44,8 @@ fn line(Fact { label, value, note, .. }: &Fact) -> String {
     wrapped(format!("  {label:<38} {value}  {note}").trim_end(), 41)
 }
 
-/// An empty line and the caption, the heads and their units, the rows: numbers end where their heads do. The words of heads
-/// stand one below the other where they would be too wide in a line. Empty without rows.
+/// An empty line and the caption, the heads and their units, the rows: numbers end where their heads do. The words of
+/// heads stand one below the other where they would be too wide in a line. Empty without rows.
 fn table(table: &Table) -> String {
     if table.rows.is_empty() {
         return String::new();

@@ -18,7 +18,7 @@ const IN_ALL: usize = 3600;
 /// Most curves in one picture; more cannot be distinguished.
 const MOST: usize = 6;
 
-/// `motion` and `spectrum` of the first six watched places, and `strain` along the bat, which is under the ball's force.
+/// `motion` and `spectrum` of the first six watched places, and `strain` along the bat.
 pub fn after_hit(sheet: Sheet, after: &Aftermath, seen: &AfterHit) -> Vec<Picture> {
     let all = AfterBall { after, seen, bat: after.bat().name() };
     [all.motion(sheet), all.spectrum(sheet), all.strain(sheet)].into_iter().flatten().collect()

@@ -26,19 +26,11 @@ pub fn modes(bat: &Bat, solution: &Solution, units: Units) -> Table {
         }),
         Column::new("f/f1", "", Ratio(3), |(mode, first)| (mode.frequency() / first).into()),
         Column::new("relative error", "", Words, |(mode, _)| within(mode.error.total()).into()),
-        Column::new("modal mass", "", Mass, |(mode, _)| mode.modal_mass.into()),
+        Column::new("modal mass (largest |w| = 1)", "", Mass, |(mode, _)| mode.modal_mass.into()),
     ];
     let first = solution.modes.first().map_or(1.0, Mode::frequency);
     let rows: Vec<ModeRow> = solution.modes.iter().map(|mode| (mode, first)).collect();
-    Table::of(
-        format!(
-            "Bending modes ({}; modal mass for a largest deflection of 1)",
-            bat.fixtures().freedom()
-        ),
-        &columns,
-        &rows,
-        units,
-    )
+    Table::of(format!("Bending modes ({})", bat.fixtures().freedom()), &columns, &rows, units)
 }
 
 /// A relative error.
