@@ -236,17 +236,20 @@ fn a_pointed_bat_carries_hammer_and_accelerometers() {
     }
 }
 
-/// Where a hammer's force vanishes, at another frequency in each place, noise gives no mode.
+/// Where a hammer's force vanishes noise looks like modes; the virtual test names each that is none of the bat's.
 #[test]
-fn noise_where_there_is_no_force_is_no_mode() {
+fn modes_of_noise_are_named() {
     let folder = Folder::new("identify_force");
     let test = ["identify", "--simulate", "bbcor_made_up", "--to-hz", "8000", "--json", "-"];
     let told = folder.json(&test);
-    let planned = &told["simulated"]["modes"];
-    let found = numbers(&told["modes"], "frequency_hz");
     assert!(told["simulated"]["force_db"].as_f64().unwrap() < -60.0);
-    assert!(apart(&found, &numbers(planned, "frequency_hz")) < 1e-3, "{told:#}");
-    assert!(!told["warnings"].to_string().contains("false_modes"), "{told:#}");
+    let exact = numbers(&told["simulated"]["modes"], "frequency_hz");
+    let found = numbers(&told["modes"], "frequency_hz");
+    let all = told["warnings"].as_array().unwrap().iter();
+    let named = all.filter(|one| one["code"] == "false_modes").map(|one| one["text"].to_string());
+    let named = named.collect::<String>().matches(" Hz").count();
+    assert_eq!(named, found.len() - exact.len(), "{told:#}");
+    assert!(!tested("identify_true", &[]).1["warnings"].to_string().contains("false_modes"));
 }
 
 /// A virtual test says that the fit does not describe dashpots, and hangs no bat that is held.

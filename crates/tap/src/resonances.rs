@@ -39,8 +39,6 @@ pub struct Responses {
     pub values: Vec<Vec<c64>>,
     /// Noise at every line, over that of the response.
     lines: Vec<f64>,
-    /// The least of it, relative, if coherence gives it.
-    told: Option<Vec<f64>>,
     /// Noise of every response (1/kg).
     scales: Vec<f64>,
 }
@@ -57,9 +55,15 @@ impl Responses {
     /// often makes it too small.
     pub fn new(hz: Vec<f64>, values: Vec<Vec<c64>>, noise: Option<Vec<f64>>) -> Self {
         let (lines, scales) = (vec![1.0; hz.len()], vec![1.0; values.len()]);
-        let mut all = Self { hz, values, lines, scales, told: noise };
+        let mut all = Self { hz, values, lines, scales };
         let rough: Vec<Vec<c64>> = all.values.iter().map(|one| rough(one)).collect();
         all.weigh(&rough);
+        if let Some(noise) = noise {
+            let ratios: Vec<f64> =
+                noise.iter().zip(&all.lines).map(|(told, own)| told / own).collect();
+            let usual = median(&ratios).max(1e-300);
+            all.lines.iter_mut().zip(noise).for_each(|(own, told)| *own = own.max(told / usual));
+        }
         all
     }
 
@@ -84,12 +88,6 @@ impl Responses {
                 (median(part) / middle).max(1e-6).sqrt()
             };
             self.lines = (0..means.len()).map(near).collect();
-            if let Some(told) = &self.told {
-                let ratios = told.iter().zip(&self.lines).map(|(told, own)| told / own);
-                let usual = median(&ratios.collect::<Vec<f64>>()).max(1e-300);
-                let both = self.lines.iter_mut().zip(told);
-                both.for_each(|(own, told)| *own = own.max(told / usual));
-            }
         }
     }
 

@@ -6,7 +6,6 @@
 use std::f64::consts::TAU;
 
 use faer::c64;
-use sweetspot_tap::filter::median;
 use sweetspot_tap::fit::Pole;
 use sweetspot_tap::orders::Orders;
 use sweetspot_tap::resonances::{Damping, LOSSES, Responses, at, square};
@@ -160,20 +159,18 @@ fn accelerance(set: &ResponseSet, k: usize) -> Vec<c64> {
     one.values.iter().map(turned).collect()
 }
 
-/// Noise of lines, the largest `|H| √(1/γ² − 1)` of any response over its usual one; `None` if the coherence gives no
-/// information. Each force has its zeros at other lines, and noise stands there like a resonance.
+/// Noise of lines, the mean of `|H| √(1/γ² − 1)` over the responses; `None` if the coherence gives no information.
 fn by_coherence(set: &ResponseSet, which: &[usize], values: &[Vec<c64>]) -> Option<Vec<f64>> {
     let lines = values[0].len();
-    let mut noise = vec![0.0_f64; lines];
+    let mut noise = vec![0.0; lines];
     for (k, values) in which.iter().zip(values) {
         let coherence = set.responses[*k].measured.coherence.as_ref()?;
         let own = |l: usize| values[l].norm_sqr() * (1.0 / coherence[l].clamp(1e-3, 1.0) - 1.0);
-        let all: Vec<f64> = (0..lines).map(own).collect();
-        let usual = median(&all).max(1e-300);
-        noise.iter_mut().zip(&all).for_each(|(noise, own)| *noise = noise.max(own / usual));
+        let mean = (0..lines).map(own).sum::<f64>() / lines as f64;
+        (0..lines).for_each(|l| noise[l] += own(l) / mean.max(1e-300));
     }
-    let known = noise.iter().any(|n| *n > 0.0);
-    known.then(|| noise.iter().map(|n| n.clamp(1e-3, 1e12).sqrt()).collect())
+    let mean = noise.iter().sum::<f64>() / lines as f64;
+    (mean > 0.0).then(|| noise.iter().map(|n| (n / mean).max(1e-3).sqrt()).collect())
 }
 
 impl Fitted<'_> {
