@@ -98,9 +98,10 @@ fn a_density_far_from_its_material_s_is_said_by_every_verb_and_asks_for_the_wall
     folder.write("own.json", own);
     let tube = r#", "wall_thickness": ["3 mm", "3 mm", "3 mm", "3 mm"]"#;
     folder.write("hollow.json", aluminium("", tube));
+    // On the screen, or beside it.
     let said = |args: &[&str]| {
         let output = folder.run(args);
-        plain(&String::from_utf8_lossy(&output.stderr))
+        plain(&String::from_utf8_lossy(&[output.stdout, output.stderr].concat()))
     };
     for (bat, word) in [
         ("solid.json", "\"wall_thickness\" in \"profile\""),
@@ -123,7 +124,8 @@ fn a_density_far_from_its_material_s_is_said_by_every_verb_and_asks_for_the_wall
         assert!(!screen.contains(EXACT), "{screen}");
     }
     // A metal tube and wood of usual scatter cause no message.
-    assert_eq!(said(&["modes", "hollow.json"]), "");
+    let beside = |args: &[&str]| plain(&String::from_utf8_lossy(&folder.run(args).stderr));
+    assert_eq!(beside(&["modes", "hollow.json"]), "");
     for mass in ["26 oz", "33 oz"] {
         let wood = format!(
             r#"{{ "format": "sweetspot-bat/1", "material": "white-ash-dynamic", "weighed": {{ "mass": "{mass}" }},
@@ -131,7 +133,7 @@ fn a_density_far_from_its_material_s_is_said_by_every_verb_and_asks_for_the_wall
                     "diameter": [1.0, 0.9, 1.6, 2.45, 2.55] }} }}"#
         );
         folder.write("wood.json", wood);
-        assert_eq!(said(&["modes", "wood.json"]), "", "{mass}");
+        assert_eq!(beside(&["modes", "wood.json"]), "", "{mass}");
     }
 }
 

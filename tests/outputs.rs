@@ -182,7 +182,7 @@ fn hands_are_said_to_be_shaken_only_where_something_damps_the_bat() {
         assert!(hit(bat).contains("least hand speed, undamped"), "{bat}");
         folder.text(&["hit", bat, "--points", "3", "--plots", "drawn"]);
         assert_eq!(folder.read("drawn/exit_speed.svg").contains("least shaken"), shaken, "{bat}");
-        assert_eq!(ring(bat).contains("m/s² ("), shaken, "{bat}");
+        assert_eq!(ring(bat).contains("t/s² ("), shaken, "{bat}");
         let spot = &folder.json(&["hit", bat, "--points", "3", "--json", "-"])["sweet_spot"];
         assert!(spot["hands_acceleration_min"]["value"].is_f64(), "{spot}");
     }

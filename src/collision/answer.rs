@@ -257,14 +257,7 @@ impl Hitter<'_> {
         }
         let hard = (mass / ball).sqrt() * closing > FASTEST_MEASURED
             || met.compression > self.scene.ball.radius_m;
-        let beyond = met.time > LONGEST_MEASURED || cor < LEAST_MEASURED || hard;
-        let flags = [
-            (met.reloads > 0, "reload"),
-            (met.late, "late_contact"),
-            (met.again(), "second_contact"),
-            (beyond, "ball_law_beyond"),
-        ];
-        answer.flags = flags.into_iter().filter_map(|(is, name)| is.then_some(name)).collect();
+        answer.flags = flags(met, hard || cor < LEAST_MEASURED);
         answer.contact_time = Some(met.time);
         let exit_speed = met.first_impulse / ball - self.scene.ball_speed;
         // A ball that leaves only once does so at the end.
@@ -284,6 +277,17 @@ impl Hitter<'_> {
         answer.lost_in_bat = met.lost_in_bat;
         answer
     }
+}
+
+/// The flags of a contact; `beyond` if the ball's law was not measured for such a speed or restitution.
+fn flags(met: &Encounter, beyond: bool) -> Vec<&'static str> {
+    let flags = [
+        (met.reloads > 0, "reload"),
+        (met.late, "late_contact"),
+        (met.again(), "second_contact"),
+        (met.time > LONGEST_MEASURED || beyond, "ball_law_beyond"),
+    ];
+    flags.into_iter().filter_map(|(is, name)| is.then_some(name)).collect()
 }
 
 /// A contact, beside which others are computed for its errors.

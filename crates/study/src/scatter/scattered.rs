@@ -106,6 +106,26 @@ fn lacking(found: &BatAnswers, output: &Output) -> String {
     found.off.as_ref().map_or(format!("the bat has no {}", output.name()), ToString::to_string)
 }
 
+/// Why each row has no answer; empty if it has one. An output that no bat has, as the node of a mode without nodes, does
+/// not count.
+fn missing(
+    rows: &ScatterRows,
+    found: &[Result<BatAnswers>],
+    values: &[Vec<Option<f64>>],
+) -> Vec<String> {
+    let held: Vec<bool> = values.iter().map(|column| column.iter().any(Option::is_some)).collect();
+    let lacks = |row: usize| {
+        let lacked = (0..values.len()).find(|k| held[*k] && values[*k][row].is_none());
+        lacked.or_else(|| (!held.contains(&true)).then_some(0))
+    };
+    let why = |(row, found): (usize, &Result<BatAnswers>)| match (found, lacks(row)) {
+        (Err(error), _) => error.to_string(),
+        (Ok(found), Some(k)) => lacking(found, &rows.plan.outputs[k]),
+        (Ok(_), None) => String::new(),
+    };
+    found.iter().enumerate().map(why).collect()
+}
+
 impl Scattered {
     /// Computes all rows, on all threads; `tell` receives the number of finished rows.
     ///
@@ -145,19 +165,7 @@ impl Scattered {
             found.iter().map(|row| value(&row.as_ref().ok()?.figures[k])).collect()
         };
         let values: Vec<Vec<Option<f64>>> = (0..rows.plan.outputs.len()).map(column).collect();
-        // An output that no bat has, as the node of a mode without nodes, leaves the other outputs.
-        let somewhere = |column: &Vec<Option<f64>>| column.iter().any(Option::is_some);
-        let held: Vec<bool> = values.iter().map(somewhere).collect();
-        let lacks = |row: usize| {
-            let lacked = (0..values.len()).find(|k| held[*k] && values[*k][row].is_none());
-            lacked.or_else(|| (!held.contains(&true)).then_some(0))
-        };
-        let why = |(row, found): (usize, &Result<BatAnswers>)| match (found, lacks(row)) {
-            (Err(error), _) => error.to_string(),
-            (Ok(found), Some(k)) => lacking(found, &rows.plan.outputs[k]),
-            (Ok(_), None) => String::new(),
-        };
-        let missing: Vec<String> = found.iter().enumerate().map(why).collect();
+        let missing = missing(rows, &found, &values);
         let good = |(found, why): (&Result<BatAnswers>, &String)| {
             why.is_empty() && found.as_ref().is_ok_and(|found| found.met)
         };

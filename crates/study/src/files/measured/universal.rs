@@ -102,9 +102,8 @@ fn placed(universal: &Universal, file: &str, beside: &Beside) -> Result<Measured
     }
     assumed.extend(said(&directions, &modes));
     let along = points.iter().map(|point| point.along).collect();
-    let from_knob = places.is_some();
-    let otherwise = poles.otherwise;
-    Ok(Measured { source: file.to_owned(), modes, along, from_knob, assumed, otherwise })
+    let (source, from_knob, otherwise) = (file.to_owned(), places.is_some(), poles.otherwise);
+    Ok(Measured { source, modes, along, from_knob, assumed, otherwise })
 }
 
 /// How nodes are taken, by the numbers of those that move, of their points, and of those that never move, and by the
