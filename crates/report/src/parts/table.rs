@@ -185,7 +185,7 @@ mod tests {
         let table = Table::of("t", &columns, &[[0.254, 0.125], [0.508, -0.5]], Units::Both);
         let told = table.markdown();
         assert!(told.contains("| place, cm | place, in | e\\_A |\n"), "{told}");
-        assert!(told.contains("| 25.40 | 10.00 | 0.13 |") && told.contains("-0.50"), "{told}");
+        assert!(told.contains("| 25.40 | 10.00 | 0.13 |") && told.contains("−0.50"), "{told}");
         assert!(table.html().contains(">place, in</th>"));
     }
 

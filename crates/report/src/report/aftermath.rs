@@ -64,7 +64,7 @@ impl AfterHit {
 pub fn impact(impact: &hit::Impact, end: f64, units: Units) -> String {
     let Some(outcome) = &impact.outcome else { return String::new() };
     format!(
-        "     at {}\n     the ball leaves at {}, after {:.2} ms, {} at most\n",
+        "     at {}\n     the ball leaves at {}, after {:.2} ms\n     the force is {} at most\n",
         Quantity::Length.said(units, impact.x),
         Quantity::Speed.said(units, outcome.exit_speed),
         1e3 * end,

@@ -43,7 +43,7 @@ fn within(error: f64) -> String {
 fn as_known(frequency: f64, error: f64) -> String {
     const LONGEST: usize = 9;
     let known = (-(error * frequency).log10()).floor();
-    let whole = fixed(frequency, 0).len();
+    let whole = format!("{frequency:.0}").len();
     let room = LONGEST.saturating_sub(whole + 1).max(2);
     let decimals = if known > 2.0 { (known.min(room as f64)) as usize } else { 2 };
     fixed(frequency, decimals)
