@@ -1,6 +1,6 @@
 //! What bat is this?
 //!
-//! A [`profile`] of radii along the length, one [`material`] or several, and fixtures become a [`Bat`](body::Bat) with
+//! A [`profile`] of radii along the length, one [`material`] or several, and fixtures become a [`Bat`] with
 //! its mass, balance point and swing weight.
 //!
 //! | file | question |

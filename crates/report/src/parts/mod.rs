@@ -3,7 +3,7 @@
 //! A report is a list of [`part`]s: headings, sentences, facts, files of the user ([`input`]), and [`table`]s, whose
 //! columns extract the cells of a row ([`cell`]) and show them in [`units`]. The content is defined once and written in
 //! several formats: for a [`terminal`] with its [`columns`], as HTML and Markdown for the page ([`crate::page`], with
-//! [`escape`] and its numbers [`typeset`]), as CSV ([`crate::csv`]). A frequency may be shown as a [`note`].
+//! [`escape`] and its numbers [`mod@typeset`]), as CSV ([`crate::csv`]). A frequency may be shown as a [`note`].
 
 pub mod escape;
 pub mod typeset;
