@@ -17,7 +17,7 @@ const KEPT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/benches/kept.csv");
 const COMMANDS: [(&str, usize, &[&str]); 13] = [
     ("start", TURNS, &["--version"]),
     ("modes, r161", TURNS, &["modes", "r161", "-n", "5", "--quiet"]),
-    ("modes, r161, 1000 of them", 1, &["modes", "r161", "-n", "1000", "--quiet"]),
+    ("modes, r161, 400 of them", 1, &["modes", "r161", "-n", "400", "--quiet"]),
     ("modes, a million elements", 2, &MILLION),
     ("hit, one place", TURNS, &["hit", "r161", "--at", "28 in", "--quiet"]),
     ("hit, 101 places", TURNS, &["hit", "r161", "--points", "101", "--quiet"]),
