@@ -1011,3 +1011,30 @@ fn a_full_disk_leaves_no_half_part() {
     assert_eq!(folder.read_names("out"), folder.read_names("whole"));
     assert_eq!(folder.read("out/part-000000.csv"), folder.read("whole/part-000000.csv"));
 }
+
+/// Where the ball is met again, the best value of a row may be missed between two places; its error says by how much. A
+/// single hit on a clamped bat beats the row's largest BBCOR, but not by more than that.
+#[test]
+fn the_error_of_a_best_value_counts_what_is_missed_where_the_ball_is_met_again() {
+    let folder = Folder::new("missed-peak");
+    let bat = r#"{ "format": "sweetspot-bat/1", "material": "white-ash-dynamic",
+        "profile": { "unit": "in", "x": [0, 33], "diameter": [1, 2.5], "interpolation": "linear" },
+        "supports": [{ "x": 0, "type": "clamped" }] }"#;
+    folder.write("clamped.json", bat);
+    let study = r#"{ "format": "sweetspot-study/1", "bat": "clamped.json", "outputs": ["bbcor_max"],
+        "vary": { "scene.pitch": { "values": [37.1] } } }"#;
+    folder.write("study.json", study);
+    folder.run(&["study", "study.json", "--out", "rows", "--quiet"]);
+    let rows = folder.read("rows/part-000000.csv");
+    let mut lines = rows.lines().map(|line| line.split(',').collect::<Vec<_>>());
+    let (heads, row) = (lines.next().unwrap(), lines.next().unwrap());
+    let cell = |name: &str| -> f64 {
+        row[heads.iter().position(|head| *head == name).unwrap()].parse().unwrap()
+    };
+    let args = ["hit", "clamped.json", "--at", "0.82", "--pitch", "37.1", "--json", "-", "--quiet"];
+    let output = folder.run(&args);
+    let hit: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let single = hit["impacts"][0]["bbcor"].as_f64().unwrap();
+    let (largest, error) = (cell("bbcor_max"), cell("bbcor_max_error"));
+    assert!(single <= largest + error, "{single} beside {largest} within {error}");
+}
