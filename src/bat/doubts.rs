@@ -90,7 +90,7 @@ impl Bat {
     /// A warning about an unusual density: the weighed mass asks for one far from the file's, or the file's does not
     /// fit the stiffness.
     ///
-    /// Wood is within 0.8 to 1.25 of its kind's density, a metal within a tenth of its own.
+    /// Wood is within 0.8 to 1.25 of its kind's density, a metal within a tenth of its alloy's.
     pub fn density_off(&self) -> Option<String> {
         let before = self.unedited();
         let (material, factor) = (before.material(), before.factors()[0]);
@@ -124,7 +124,7 @@ impl Bat {
     }
 
     /// A warning about a tap that asks for a stiffness far from the file's: wood is within half and twice its kind's, a
-    /// metal within a fifth of its own.
+    /// metal within a fifth of its alloy's.
     pub fn stiffness_off(&self) -> Option<String> {
         let before = self.unedited();
         let (material, factor) = (before.material(), before.factors()[1]);

@@ -59,7 +59,7 @@ pub struct Statics<R, const N: usize, const W: usize> {
     pub shear_stiffness: Vec<R>,
     /// 1/EI (1/(N m²)) and 1/κGA (1/N) at the same points, as far as the theory needs them.
     pub softness: [Vec<R>; 2],
-    /// Whether elements reach over stations: there the softness is a polynomial of its own.
+    /// Whether elements reach over stations: there the softness is a separate polynomial.
     pub over: bool,
     /// Mass (kg), summed from the elements and the fixtures.
     pub mass: R,

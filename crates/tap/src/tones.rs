@@ -170,7 +170,7 @@ fn others(poles: &[Vec<Pole>], own: usize) -> Vec<Pole> {
 
 /// Whether a tap is not one, because the strongest tones have a large residual in it.
 fn is_none(taps: &[Ringing], found: &[Found], tap: usize) -> bool {
-    // Tones of its own recording only: a tap has no tones of the other plane of the grain.
+    // Tones of the tap's recording only: a tap has no tones of the other plane of the grain.
     let own =
         |(k, misfit): &(usize, f64)| taps[*k].recording == taps[tap].recording && *misfit < NO_TAP;
     let mut strongest: Vec<&Found> =

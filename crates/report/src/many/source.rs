@@ -243,7 +243,7 @@ fn bat(
     }
     let Document { file, text, .. } = json_at(path, "bat")?;
     read(name, &text);
-    // Nobody typed the name of this file, so the files it names must be in its own folder.
+    // This file was not named by a user, so the files that it names must be in its folder.
     let folder = Folder::closed(path.parent().unwrap_or(Path::new("")));
     Bat::from_text_in(&file, &text, &folder)?;
     let mut document: Value = serde_json::from_str(&text).unwrap_or_default();

@@ -35,7 +35,7 @@ pub struct Drafting<'a> {
 
 /// Largest move of a station in a kept stretch to satisfy a limit (m).
 const GIVES_WAY: f64 = 1e-5;
-/// Least effect of a station on the curve, as a share of its own move.
+/// Least effect of a station on the curve, as a share of the station's move.
 const LEAST_FELT: f64 = 1e-2;
 /// Rounds of giving way to limits.
 const ROUNDS: usize = 60;

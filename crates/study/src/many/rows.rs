@@ -218,9 +218,9 @@ fn searched(
     let hitter = Hitter::new(model, scene, bat, &sweep.solution, sweep.effort)?;
     let asked = |which: fn(&Answer) -> bool| answers.iter().any(which);
     // An answer about a given place needs no search.
-    let along = asked(|answer| answer.is_searched() && answer.place().is_none())
+    let sought = asked(|answer| answer.is_searched() && answer.place().is_none())
         .then(|| Sought::new(&hitter, FEW));
-    let sought = |which| along.as_ref().filter(|_| asked(which));
+    let sought = |which| sought.as_ref().filter(|_| asked(which));
     let mut found = vec![];
     let fastest = sought(|answer| {
         matches!(answer, Answer::ExitSpeed | Answer::ExitSpeedPlace | Answer::Zone(_))
@@ -244,27 +244,25 @@ fn searched(
         sought(|answer| *answer == Answer::HandsVelocity),
         sought(|answer| *answer == Answer::HandsAcceleration),
     ];
-    let felt = [0, 1].map(|k| Some(felt[k]?.looked.least_felt(k)?.x));
+    let felt = [0, 1].map(|k| {
+        let looked = &felt[k]?.looked;
+        let least = looked.least_felt(k)?;
+        Some((least.x, looked.missed(-least.value, |seen| Some(-seen.hands[k]))))
+    });
     if asked(|answer| answer.of_the_hands()) {
-        for (answer, mut figure) in hands(bat, (scene, model), (sweep, &hitter), felt)? {
-            let least = [Answer::HandsVelocity, Answer::HandsAcceleration];
-            if let (Some(k), Some(sought)) = (least.iter().position(|a| *a == answer), &along) {
-                figure.error += sought.looked.missed(-figure.value, |seen| Some(-seen.hands[k]));
-            }
-            found.push((answer, figure));
-        }
+        found.extend(hands(bat, (scene, model), (sweep, &hitter), felt)?);
     }
     Ok(found)
 }
 
 /// The motion at the hands due to hits on a bat, at the places of the sweep and at those of the least velocity and
-/// acceleration (m). Its error has two parts: the change with fewer modes, and the error of the impulse, to which the
-/// motion is proportional.
+/// acceleration (m), with what a search for these may have missed. Its error also has the change with fewer modes and the
+/// error of the impulse, to which the motion is proportional.
 fn hands(
     bat: &Bat,
     (scene, model): (&Scene, Model),
     (sweep, all): (&Sweep, &Hitter),
-    least: [Option<f64>; 2],
+    least: [Option<(f64, f64)>; 2],
 ) -> Result<Vec<(Answer, Figure)>> {
     let Sweep { solution, impacts, effort, .. } = sweep;
     let count = solution.modes.len();
@@ -279,15 +277,15 @@ fn hands(
         Some(outcome.error * closing * scene.ball.mass_kg / outcome.impulse)
     };
     let unsure = impacts.iter().filter_map(share).fold(0.0, greater);
-    let felt = |x: f64, k: usize| {
+    let felt = |(x, missed): (f64, f64), k: usize| {
         let seen = |hitter: &Hitter| hitter.glance(x).map(|seen| seen.hands[k]);
         let (all, few) = (seen(all)?, few.iter().map(seen).collect::<Option<Vec<_>>>()?);
         let apart = few.iter().map(|few| (all - few).abs()).fold(0.0, greater);
-        Some(Figure::new(all, apart + unsure * all))
+        Some(Figure::new(all, apart + unsure * all + missed))
     };
     let [velocity, acceleration] = least;
     let at = impacts.iter().flat_map(|impact| {
-        let x = Some(impact.x);
+        let x = Some((impact.x, 0.0));
         [(Answer::HandsVelocityAt(impact.x), x, 0), (Answer::HandsAccelerationAt(impact.x), x, 1)]
     });
     let best = [(Answer::HandsVelocity, velocity, 0), (Answer::HandsAcceleration, acceleration, 1)];
